@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace terrane {
+
+namespace {
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+// Optimal string alignment distance: insertions, deletions, substitutions, neighbours swapped.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i)
+        d[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        d[0][j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t cost = lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1;
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + cost});
+            const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
+                                 lower(a[i - 2]) == lower(b[j - 1]);
+            if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    }
+    return d[a.size()][b.size()];
+}
+
+std::size_t skipBlanksAndPlus(std::string_view text) {
+    std::size_t i = 0;
+    while (i < text.size() && std::isspace(static_cast<unsigned char>(text[i])))
+        ++i;
+    // std::from_chars takes no '+'; "+-1" is no number either.
+    if (i + 1 < text.size() && text[i] == '+' && text[i + 1] != '-') ++i;
+    return i;
+}
+
+template <class T> std::optional<ParsedNumber<T>> parseNumber(std::string_view text) {
+    const std::size_t start = skipBlanksAndPlus(text);
+    ParsedNumber<T> result;
+    const char* const first = text.data() + start;
+    const auto [end, error] = std::from_chars(first, text.data() + text.size(), result.value);
+    if (error != std::errc{}) return std::nullopt;
+    result.length = static_cast<std::size_t>(end - text.data());
+    return result;
+}
+
+} // namespace
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> pieces;
+    if (text.empty()) return pieces;
+    std::size_t start = 0;
+    for (std::size_t i = 0; i <= text.size(); ++i) {
+        if (i < text.size() && text[i] != separator) continue;
+        pieces.push_back(text.substr(start, i - start));
+        start = i + 1;
+    }
+    return pieces;
+}
+
+std::string nearestName(std::string_view name, const std::vector<std::string>& candidates) {
+    // A third of the letters wrong is still a likely misspelling; more is a different word.
+    const std::size_t limit = std::max<std::size_t>(1, name.size() / 3);
+    // The distance is quadratic; a name this long is no misspelling of anything.
+    constexpr std::size_t kLongestName = 256;
+    if (name.size() > kLongestName) return {};
+    std::size_t best = limit + 1;
+    std::string nearest;
+    for (const std::string& candidate : candidates) {
+        if (candidate.size() > name.size() + limit || name.size() > candidate.size() + limit)
+            continue;
+        const std::size_t distance = editDistance(name, candidate);
+        if (distance < best) {
+            best = distance;
+            nearest = candidate;
+        }
+    }
+    return nearest;
+}
+
+std::string listOfNames(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+        text += "'" + names[i] + "'";
+    }
+    return text;
+}
+
+std::optional<ParsedNumber<int>> parseInt(std::string_view text) { return parseNumber<int>(text); }
+
+std::optional<ParsedNumber<double>> parseReal(std::string_view text) {
+    return parseNumber<double>(text);
+}
+
+bool isBlank(std::string_view text) {
+    return std::all_of(text.begin(), text.end(),
+                       [](char c) { return std::isspace(static_cast<unsigned char>(c)); });
+}
+
+} // namespace terrane

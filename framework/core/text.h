@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace terrane {
+
+/// Splits at every separator; empty pieces are kept, blanks are not trimmed. "" gives no piece.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// The candidate nearest to `name` by Damerau-Levenshtein distance without regard to case, or an
+/// empty text when none is near enough to be a likely misspelling.
+std::string nearestName(std::string_view name, const std::vector<std::string>& candidates);
+
+/// "'a', 'b' or 'c'".
+std::string listOfNames(const std::vector<std::string>& names);
+
+/// A number read from the start of a text, whatever the locale.
+template <class T> struct ParsedNumber {
+    T value{};
+    std::size_t length = 0; ///< bytes used, leading blanks and sign included
+};
+
+/// Decimal integer; leading blanks and '+' are allowed. Empty when there is none, or when it does
+/// not fit.
+std::optional<ParsedNumber<int>> parseInt(std::string_view text);
+/// Decimal real, also "inf" and "nan"; leading blanks and '+' are allowed.
+std::optional<ParsedNumber<double>> parseReal(std::string_view text);
+
+bool isBlank(std::string_view text);
+
+} // namespace terrane

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Compiler settings shared by every target: warnings, sanitizers, ccache with precompiled headers.
+
+add_library(terrane_options INTERFACE)
+target_compile_options(terrane_options INTERFACE -Wall -Wextra -Wpedantic)
+if(TERRANE_WERROR)
+    target_compile_options(terrane_options INTERFACE -Werror)
+endif()
+if(TERRANE_SANITIZE)
+    add_compile_options(-fsanitize=${TERRANE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    add_link_options(-fsanitize=${TERRANE_SANITIZE})
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    # A precompiled header holds times and macros that ccache would otherwise count as changes.
+    set(launcher ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+                 CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CCACHE_PROGRAM})
+    set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
+    # ccache can only reuse what includes a precompiled header when the compiler says which it was.
+    add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
+endif()
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM)
+    add_link_options(-fuse-ld=mold)
+endif()
