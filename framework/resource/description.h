@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "resource/value.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace terrane {
+
+struct ElementDeclaration;
+struct ElementDescription;
+
+/// A nested element: its typed description and, when it is a resource of its own, what was built
+/// from it (before the parent's builder runs).
+struct Child {
+    const ElementDeclaration* declaration = nullptr;
+    std::shared_ptr<ElementDescription> description;
+    std::shared_ptr<Resource> resource;
+
+    /// The description, if this child was declared with description type D; else null.
+    template <class D>
+    const D* as() const;
+    /// The nested resource, if it is a T; else null.
+    template <class T>
+    std::shared_ptr<T> built() const {
+        return std::dynamic_pointer_cast<T>(resource);
+    }
+};
+
+/// Base of all typed descriptions: what a parsed and validated element says. Derived structs add
+/// one Attr, Ref or RefList member per attribute.
+struct ElementDescription {
+    virtual ~ElementDescription() = default;
+
+    std::string tag;             ///< as written; matters where a declaration matches a prefix
+    Attr<std::string> name;      ///< of an archive's entry; empty for most nested elements
+    Attr<std::string> id;        ///< key of a child of a node
+    Place place;                 ///< the element's '<'
+    std::vector<Child> children; ///< in document order
+};
+
+} // namespace terrane

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "resource/value_traits.h"
+
+#include "core/text.h"
+#include "resource/declaration.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace terrane::detail {
+
+namespace {
+
+Place at(const Place& place, std::size_t offset) {
+    return {place.file, place.offset + offset};
+}
+
+void wrongKind(const AttributeText& text, const AttributeDeclaration& a, std::string expected,
+               Diagnostics& diagnostics) {
+    diagnostics.error("wrong-kind", text.valuePlace,
+                      "'" + text.text + "' is no value of '" + a.name + "'", std::move(expected));
+}
+
+// What follows a number is ignored, as archives of the original rely on, but told.
+void checkRest(std::string_view piece, std::size_t length, const Place& place,
+               const AttributeDeclaration& a, Diagnostics& diagnostics) {
+    const std::string_view rest = piece.substr(length);
+    if (isBlank(rest)) return;
+    diagnostics.warning("trailing-garbage", at(place, length),
+                        "'" + std::string(rest) + "' after the number of '" + a.name +
+                            "' is ignored",
+                        "a number alone");
+}
+
+std::string rangeText(const AttributeDeclaration& a) {
+    const std::string unit = a.unit.empty() ? "" : " " + a.unit;
+    const bool below = std::isfinite(a.minimum);
+    const bool above = std::isfinite(a.maximum);
+    if (below && above) return fmt::format("{} to {}{}", a.minimum, a.maximum, unit);
+    if (below)
+        return fmt::format("{} {}{}", a.minimumExcluded ? "more than" : "at least", a.minimum,
+                           unit);
+    return fmt::format("at most {}{}", a.maximum, unit);
+}
+
+bool inRange(double value, std::string_view piece, const Place& place,
+             const AttributeDeclaration& a, Diagnostics& diagnostics) {
+    const bool low = a.minimumExcluded ? value <= a.minimum : value < a.minimum;
+    const bool noNumber =
+        std::isnan(value) && (std::isfinite(a.minimum) || std::isfinite(a.maximum));
+    if (!low && !noNumber && value <= a.maximum) return true;
+    if (!low && !noNumber && std::isnan(value)) return true;
+    diagnostics.error("out-of-range", place,
+                      "'" + a.name + "' of " + std::string(piece) + " is out of range",
+                      rangeText(a));
+    return false;
+}
+
+template <class T, class Parse>
+bool readPiece(std::string_view piece, const Place& place, const AttributeText& text,
+               const AttributeDeclaration& a, const char* expected, Parse parse, T& value,
+               Diagnostics& diagnostics) {
+    const auto number = parse(piece);
+    if (!number) {
+        wrongKind({std::string(piece), text.namePlace, place}, a, expected, diagnostics);
+        return false;
+    }
+    checkRest(piece, number->length, place, a, diagnostics);
+    value = static_cast<T>(number->value);
+    return inRange(static_cast<double>(number->value), piece, place, a, diagnostics);
+}
+
+template <class T, class Parse>
+bool readList(const AttributeText& text, const AttributeDeclaration& a, const char* expected,
+              Parse parse, std::vector<T>& values, Diagnostics& diagnostics) {
+    values.clear();
+    bool good = true;
+    std::size_t offset = 0;
+    for (const std::string_view piece : split(text.text, ',')) {
+        const Place place = at(text.valuePlace, offset);
+        offset += piece.size() + 1;
+        if (piece.empty()) continue;
+        T value{};
+        good &= readPiece(piece, place, text, a, expected, parse, value, diagnostics);
+        values.push_back(value);
+    }
+    return good;
+}
+
+} // namespace
+
+bool readBool(const AttributeText& text, const AttributeDeclaration& a, bool& value,
+              Diagnostics& diagnostics) {
+    value = a.trueUnlessFalse ? text.text != "false" : text.text == "true";
+    if (text.text != "true" && text.text != "false") {
+        diagnostics.warning("boolean-word", text.valuePlace,
+                            "'" + text.text + "' counts as " + (value ? "true" : "false"),
+                            "'true' or 'false'");
+    }
+    return true;
+}
+
+bool readInt(const AttributeText& text, const AttributeDeclaration& a, int& value,
+             Diagnostics& diagnostics) {
+    return readPiece(text.text, text.valuePlace, text, a, "an integer", parseInt, value,
+                     diagnostics);
+}
+
+bool readReal(const AttributeText& text, const AttributeDeclaration& a, double& value,
+              Diagnostics& diagnostics) {
+    return readPiece(text.text, text.valuePlace, text, a, "a number", parseReal, value,
+                     diagnostics);
+}
+
+bool readFloat(const AttributeText& text, const AttributeDeclaration& a, float& value,
+               Diagnostics& diagnostics) {
+    return readPiece(text.text, text.valuePlace, text, a, "a number", parseReal, value,
+                     diagnostics);
+}
+
+bool readIntList(const AttributeText& text, const AttributeDeclaration& a, std::vector<int>& values,
+                 Diagnostics& diagnostics) {
+    return readList(text, a, "integers separated by commas", parseInt, values, diagnostics);
+}
+
+bool readRealList(const AttributeText& text, const AttributeDeclaration& a,
+                  std::vector<float>& values, Diagnostics& diagnostics) {
+    return readList(text, a, "numbers separated by commas", parseReal, values, diagnostics);
+}
+
+bool readTextList(const AttributeText& text, const AttributeDeclaration&,
+                  std::vector<std::string>& values, Diagnostics&) {
+    values.clear();
+    for (const std::string_view piece : split(text.text, ','))
+        values.emplace_back(piece);
+    return true;
+}
+
+bool readFileName(const AttributeText& text, const AttributeDeclaration&, DataFile& value,
+                  Diagnostics&) {
+    value.name = text.text;
+    return true;
+}
+
+bool readTarget(const AttributeText& text, const AttributeDeclaration& a, Target& value,
+                Diagnostics& diagnostics) {
+    const std::size_t dot = text.text.find('.');
+    const bool qualified = dot != std::string::npos;
+    value.node = qualified ? text.text.substr(0, dot) : "";
+    value.name = qualified ? text.text.substr(dot + 1) : text.text;
+    if (!value.name.empty() && (!qualified || !value.node.empty()) && value.node != "$")
+        return true;
+    wrongKind(text, a, "a name, or 'this.name', '$variable.name' or 'flag.name'", diagnostics);
+    return false;
+}
+
+bool readReference(const AttributeText& text, const AttributeDeclaration& a, std::string& name,
+                   Diagnostics& diagnostics) {
+    name = text.text;
+    if (!name.empty()) return true;
+    wrongKind(text, a, "the name of a resource", diagnostics);
+    return false;
+}
+
+int readWord(const AttributeText& text, const AttributeDeclaration& a, Diagnostics& diagnostics) {
+    for (std::size_t i = 0; i < a.words.size(); ++i) {
+        if (a.words[i] == text.text) return static_cast<int>(i);
+    }
+    diagnostics.report({.code = "unknown-word",
+                        .place = text.valuePlace,
+                        .message = "'" + text.text + "' is no value of '" + a.name + "'",
+                        .expected = listOfNames(a.words),
+                        .suggestion = nearestName(text.text, a.words)});
+    return -1;
+}
+
+bool readWords(const AttributeText& text, const AttributeDeclaration& a, std::vector<int>& indices,
+               Diagnostics& diagnostics) {
+    bool good = true;
+    std::size_t offset = 0;
+    for (const std::string_view piece : split(text.text, ',')) {
+        const Place place = at(text.valuePlace, offset);
+        offset += piece.size() + 1;
+        const int index = readWord({std::string(piece), text.namePlace, place}, a, diagnostics);
+        if (index >= 0) indices.push_back(index);
+        good &= index >= 0;
+    }
+    return good;
+}
+
+std::string print(bool value) {
+    return value ? "true" : "false";
+}
+std::string print(int value) {
+    return fmt::format("{}", value);
+}
+std::string print(double value) {
+    return fmt::format("{}", value);
+}
+std::string print(float value) {
+    return fmt::format("{}", value);
+}
+
+std::string print(const std::vector<int>& value) {
+    return fmt::format("{}", fmt::join(value, ","));
+}
+std::string print(const std::vector<float>& value) {
+    return fmt::format("{}", fmt::join(value, ","));
+}
+std::string print(const std::vector<std::string>& value) {
+    return fmt::format("{}", fmt::join(value, ","));
+}
+
+std::string print(const Target& value) {
+    return value.node.empty() ? value.name : value.node + "." + value.name;
+}
+
+void referTo(AttributeDeclaration& attribute, std::type_index interface) {
+    attribute.refersTo = interface;
+}
+
+} // namespace terrane::detail

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/diagnostic.h"
+
+#include <memory>
+#include <pugixml.hpp>
+#include <string>
+#include <vector>
+
+namespace terrane {
+
+class XmlElement;
+
+/// An attribute as written, entities decoded, with the places of its name and of its value.
+struct XmlAttribute {
+    std::string name;
+    std::string value;
+    Place namePlace;
+    Place valuePlace; ///< first character inside the quotes
+};
+
+/// A parsed XML file. As tolerant as archives of the original need: comments before the
+/// declaration, several declarations, "--" in comments (ork reference 1.5).
+class XmlDocument : public std::enable_shared_from_this<XmlDocument> {
+public:
+    /// Null, with a diagnostic "xml-syntax", when the text is no XML.
+    static std::shared_ptr<const XmlDocument> parse(std::shared_ptr<const SourceFile> source,
+                                                    Diagnostics& diagnostics);
+
+    XmlElement root() const;
+    const std::shared_ptr<const SourceFile>& source() const { return source_; }
+
+private:
+    std::shared_ptr<const SourceFile> source_;
+    pugi::xml_document document_;
+};
+
+/// An element of a document. Cheap to copy; keeps the document alive.
+class XmlElement {
+public:
+    XmlElement(std::shared_ptr<const XmlDocument> document, pugi::xml_node node)
+        : document_(std::move(document))
+        , node_(node) {}
+
+    std::string tag() const { return node_.name(); }
+    Place place() const; ///< the '<'
+    std::vector<XmlAttribute> attributes() const;
+    std::string attribute(const char* name) const { return node_.attribute(name).value(); }
+    std::vector<XmlElement> children() const; ///< elements only
+
+private:
+    std::shared_ptr<const XmlDocument> document_;
+    pugi::xml_node node_;
+};
+
+} // namespace terrane
