@@ -60,7 +60,7 @@ public:
 
     bool given() const { return !name.empty(); } ///< there is a name to resolve
     ResourceEntry* entry() const { return entry_; }
-    void resolve(ResourceEntry* entry) { entry_ = entry; }
+    void resolve(ResourceEntry* entry) const { entry_ = entry; }
 
     std::string name;
     Place place; ///< first character of the name; the element's '<' for a default
@@ -69,7 +69,7 @@ protected:
     Resource* instance() const; // null until resolved
 
 private:
-    ResourceEntry* entry_ = nullptr;
+    mutable ResourceEntry* entry_ = nullptr; // resolving is not a change of what was described
 };
 
 /// A reference to a resource that is, or derives from, T.

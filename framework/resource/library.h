@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/diagnostic.h"
+#include "core/files.h"
+#include "resource/xml.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace terrane {
+
+/// The element that describes a resource, however its name led there (ork reference 1.2, 1.3).
+struct FoundElement {
+    XmlElement element;
+    std::filesystem::path file; ///< empty when it was made from the name alone
+    bool synthesised = false;   ///< made from the name: `grass.png`, `a;b;`, `grid.mesh`
+};
+
+/// Turns names into XML elements and data files: the archives in order, then the search folders.
+/// Parses each file once.
+class Library {
+public:
+    Library(SearchPath searchPath, Diagnostics& diagnostics);
+
+    /// Parses an archive: every direct child of its root with a `name` becomes an entry. False with
+    /// diagnostics ("file-missing", "xml-syntax") when it can't be read.
+    bool addArchive(const std::filesystem::path& file);
+
+    /// The entries of all archives in document order, unnamed ones included.
+    const std::vector<XmlElement>& entries() const { return entries_; }
+
+    /// The element for a name, or nothing (without a diagnostic) when there is none.
+    std::optional<FoundElement> find(const std::string& name);
+
+    /// Names of archive entries, for suggestions.
+    std::vector<std::string> names() const;
+
+    const SearchPath& searchPath() const { return searchPath_; }
+    Diagnostics& diagnostics() const { return diagnostics_; }
+
+    /// A data file of the search folders. Nothing, with a diagnostic at `place` ("file-missing",
+    /// "name-leaves-folders"), when there is none; a warning ("case-differs") when only the case
+    /// of its name differs.
+    std::optional<std::filesystem::path> findFile(const std::string& name, const Place& place,
+                                                  Diagnostics& diagnostics) const;
+
+    /// A text file that diagnostics can point into; read once. Null when it can't be read.
+    std::shared_ptr<const SourceFile> source(const std::filesystem::path& path);
+
+private:
+    std::optional<FoundElement> findEntry(const std::string& name);
+    std::optional<FoundElement> findXmlFile(const std::string& name);
+    std::optional<FoundElement> synthesise(const std::string& name, const std::string& xml);
+    void warnDuplicates() const;
+
+    SearchPath searchPath_;
+    Diagnostics& diagnostics_;
+    std::vector<XmlElement> entries_;
+    std::vector<std::filesystem::path> archives_;
+    std::map<std::filesystem::path, std::shared_ptr<const XmlDocument>> documents_;
+    std::map<std::filesystem::path, std::shared_ptr<const SourceFile>> sources_;
+};
+
+/// The archive that a path given by a user stands for: an .xml file itself; of a folder,
+/// archive.xml, else <folder>.xml, helloworld.xml, or the only .xml whose root is <archive>.
+/// Nothing, with a diagnostic ("no-archive") that lists the candidates, otherwise.
+std::optional<std::filesystem::path> resolveArchive(const std::filesystem::path& path,
+                                                    Diagnostics& diagnostics);
+
+/// The folders in which an archive's names are looked up: its own, then `more` in order, then the
+/// original's neighbour folders that exist, then Terrane's own resources.
+SearchPath archiveSearchPath(const std::filesystem::path& archive,
+                             const std::vector<std::filesystem::path>& more);
+
+} // namespace terrane

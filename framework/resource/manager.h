@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/diagnostic.h"
+#include "resource/build_context.h"
+#include "resource/entry.h"
+#include "resource/library.h"
+#include "resource/parser.h"
+#include "resource/registry.h"
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace terrane {
+
+/// Loads resources by name, keeps at most one instance per name, and knows what depends on what.
+/// Owns all entries and instances; destroys instances in the reverse order of their creation, so
+/// that a dependent goes before what it uses. Lives on the GL thread.
+class ResourceManager {
+public:
+    /// All of them must outlive the manager.
+    ResourceManager(const Registry& registry, Library& library, Diagnostics& diagnostics);
+    ~ResourceManager();
+
+    Services& services() { return services_; }
+    const Registry& registry() const { return registry_; }
+    Library& library() { return library_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    /// Loads a resource and everything it refers to. The entry's state tells what came of it;
+    /// problems are reported once. Null when there is no such name (reported at `place`).
+    ResourceEntry* load(const std::string& name, const Place& place);
+
+    /// Loads what a reference names, checks that it is an `interface`, and records that
+    /// `dependent` (may be null) depends on it. The reference stays unresolved after an error.
+    void resolve(const RefBase& ref, std::type_index interface, ResourceEntry* dependent);
+
+    /// A typed look-up: null when it can't be had (reported).
+    template <class T>
+    Ref<T> get(const std::string& name, const Place& place = {},
+               ResourceEntry* dependent = nullptr) {
+        Ref<T> ref(name);
+        ref.place = place;
+        resolve(ref, typeid(T), dependent);
+        return ref;
+    }
+
+    /// Loads every entry of the archives, used or not, with what is referred to on demand.
+    void loadAll();
+
+    /// Loaded and failed entries by name.
+    const std::map<std::string, std::unique_ptr<ResourceEntry>>& entries() const {
+        return entries_;
+    }
+
+    /// Builds the resources nested in a description, depth first. False if one failed.
+    bool buildChildren(ElementDescription& description, BuildContext& context);
+
+private:
+    void describeAndBuild(ResourceEntry& entry, const FoundElement& found, const Place& place);
+    bool loadReferences(ResourceEntry& entry, bool onDemand);
+    void build(ResourceEntry& entry, Diagnostics& local);
+    void reportUnknown(const std::string& name, const Place& place);
+    void reportCycle(const ResourceEntry& entry, const Place& place);
+    void reportMistyped(const RefBase& ref, const ResourceEntry& entry, std::type_index interface);
+    std::vector<std::string> chain() const;
+    void forward(const Diagnostics& local);
+    const ElementDeclaration* declarationOf(const XmlElement& element);
+
+    const Registry& registry_;
+    Library& library_;
+    Diagnostics& diagnostics_;
+    Services services_;
+    std::map<std::string, std::unique_ptr<ResourceEntry>> entries_;
+    std::vector<ResourceEntry*> built_; ///< in the order of creation
+    struct Loading {
+        ResourceEntry* entry;
+        Place neededAt;
+    };
+    std::vector<Loading> loading_; ///< outermost first
+};
+
+template <class S>
+S& BuildContext::service() const {
+    S* const found = manager_.services().find<S>();
+    if (!found)
+        throw std::logic_error(std::string("BuildContext::service(): the host provides no ") +
+                               typeid(S).name());
+    return *found;
+}
+
+} // namespace terrane
