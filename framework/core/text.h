@@ -19,7 +19,8 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& c
 std::string listOfNames(const std::vector<std::string>& names);
 
 /// A number read from the start of a text, whatever the locale.
-template <class T> struct ParsedNumber {
+template <class T>
+struct ParsedNumber {
     T value{};
     std::size_t length = 0; ///< bytes used, leading blanks and sign included
 };
