@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/terrain_node.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace terrane {
+
+TerrainNode::TerrainNode(Parameters parameters)
+    : parameters_(std::move(parameters)) {
+    Parameters& p = parameters_;
+    assert(std::isfinite(p.size) && p.size > 0 && "TerrainNode: the size must be positive");
+    assert(p.zmin <= p.zmax && "TerrainNode: zmin must not be above zmax");
+    if (!p.deformation) p.deformation = std::make_shared<Deformation>();
+    p.maxLevel = std::clamp(p.maxLevel, 0, kDeepestLevel);
+    quads_.createRoot(-p.size, -p.size, 2 * p.size, p.zmin, p.zmax);
+}
+
+void TerrainNode::setGroundHeight(double height) {
+    if (std::isfinite(height)) groundHeight_ = height;
+}
+
+bool TerrainNode::update(const TerrainView& view) {
+    const std::optional<TerrainState> state =
+        terrainState(view, deformation(), parameters_.splitFactor, groundHeight_, parameters_.zmin);
+    TerrainQuad& root = quads_[0];
+    limitReached_ = false;
+    if (!state) {
+        quads_.collapse(root);
+        root.visibility = Visibility::none;
+        root.occluded = false;
+        return false;
+    }
+    state_ = *state;
+    resetHorizon();
+    updateQuad(root, Visibility::partial);
+    return true;
+}
+
+void TerrainNode::resetHorizon() {
+    const bool useful = parameters_.horizonCulling && state_.cameraIsLocal &&
+                        state_.localCamera.z <= root().zmax &&
+                        deformation().hasStraightSight(state_.localCamera);
+    if (useful)
+        horizon_.reset(state_.localCamera,
+                       glm::dvec2(state_.localCamera) - glm::dvec2(state_.localBehind));
+    else
+        horizon_.disable();
+}
+
+void TerrainNode::updateQuad(TerrainQuad& quad, Visibility ofParent) {
+    quad.visibility = ofParent == Visibility::partial
+                          ? deformation().visibility(state_.viewer, quad.box())
+                          : ofParent;
+    if (quad.isVisible() && quad.occluded) {
+        quad.occluded = horizon_.isOccluded(quad.box());
+        if (quad.occluded) quad.visibility = Visibility::none;
+    }
+    if (isToSplit(quad)) {
+        if (quad.isLeaf()) quads_.split(quad);
+        updateChildren(quad);
+    } else {
+        quads_.collapse(quad);
+        updateLeaf(quad);
+    }
+}
+
+bool TerrainNode::isToSplit(const TerrainQuad& quad) {
+    const bool wanted = (quad.isVisible() || splitInvisibleQuads_) &&
+                        quad.level < parameters_.maxLevel &&
+                        distanceToCamera(quad) < quad.l * state_.splitDistance;
+    if (!wanted || !quad.isLeaf()) return wanted;
+    const bool room = quads_.size() + QuadPool::kSiblings <= parameters_.maxQuads;
+    limitReached_ = limitReached_ || !room;
+    return room;
+}
+
+void TerrainNode::updateChildren(TerrainQuad& quad) {
+    bool allOccluded = true;
+    for (int i : frontToBack(quad)) {
+        TerrainQuad& child = quads_[quad.firstChild + i];
+        updateQuad(child, quad.visibility);
+        allOccluded = allOccluded && child.occluded;
+    }
+    quad.occluded = allOccluded;
+}
+
+void TerrainNode::updateLeaf(TerrainQuad& quad) {
+    if (!quad.isVisible()) return;
+    quad.occluded = horizon_.addOccluder(quad.box());
+    if (quad.occluded) quad.visibility = Visibility::none;
+}
+
+double TerrainNode::distanceToCamera(const TerrainQuad& quad) const {
+    if (!state_.cameraIsLocal) return std::numeric_limits<double>::infinity();
+    const glm::dvec3& c = state_.localCamera;
+    const double above = std::abs(c.z - std::max(0.0, state_.groundHeight)) / state_.distFactor;
+    const double alongX = std::min(std::abs(c.x - quad.ox), std::abs(c.x - quad.ox - quad.l));
+    const double alongY = std::min(std::abs(c.y - quad.oy), std::abs(c.y - quad.oy - quad.l));
+    return std::max({above, alongX, alongY});
+}
+
+const std::array<int, 4>& TerrainNode::frontToBack(const TerrainQuad& quad) const {
+    // By the quadrant of the quad in which the camera is: lower left, lower right, upper left,
+    // upper right.
+    static constexpr std::array<std::array<int, 4>, 4> kOrders{
+        {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 3, 1}, {3, 1, 2, 0}}};
+    const int east = state_.localCamera.x < quad.ox + quad.l / 2 ? 0 : 1;
+    const int north = state_.localCamera.y < quad.oy + quad.l / 2 ? 0 : 1;
+    return kOrders[2 * north + east];
+}
+
+const TerrainQuad* TerrainNode::find(int level, int tx, int ty) const {
+    if (level < 0 || level > kDeepestLevel) return nullptr;
+    const int count = 1 << level;
+    if (tx < 0 || ty < 0 || tx >= count || ty >= count) return nullptr;
+    const TerrainQuad* quad = &root();
+    for (int shift = level - 1; shift >= 0; --shift) {
+        if (quad->isLeaf()) return nullptr;
+        quad = &child(*quad, (tx >> shift & 1) + 2 * (ty >> shift & 1));
+    }
+    return quad;
+}
+
+void TerrainNode::setElevations(int index, double zmin, double zmax) {
+    assert(quads_[index].isAlive() && "TerrainNode::setElevations: no such quad");
+    const bool valid = std::isfinite(zmin) && std::isfinite(zmax) && zmin <= zmax;
+    if (!valid) return;
+    quads_[index].zmin = zmin;
+    quads_[index].zmax = zmax;
+}
+
+} // namespace terrane

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/horizon_buffer.h"
+#include "terrain/quad_pool.h"
+#include "terrain/terrain_state.h"
+
+#include <array>
+#include <memory>
+
+namespace terrane {
+
+/// A terrain: a square with a quadtree that is finer near the camera. It holds no data of the
+/// ground but the elevation bounds of quads; samplers and producers add these.
+///
+/// Once a frame update() subdivides the tree anew, without hysteresis: a quad is split when the
+/// camera is nearer than splitDistance times its size, in local space. Leaves that touch differ by
+/// at most one level as long as invisible quads are split, too. Not thread-safe: the thread that
+/// updates also reads (terrain reference 1.4, 3.1).
+class TerrainNode {
+public:
+    /// Beyond this, tile coordinates would not fit their integers.
+    static constexpr int kDeepestLevel = 30;
+
+    struct Parameters {
+        double size = 1; ///< half the edge of the root quad, metres; the radius of a sphere
+        double zmin = 0, zmax = 0;                      ///< bounds of all elevations, metres
+        std::shared_ptr<const Deformation> deformation; ///< null: flat
+        double splitFactor = 2;                         ///< see splitDistance()
+        int maxLevel = 0;                               ///< of the deepest quads
+        bool horizonCulling = true; ///< don't show quads hidden behind nearer ground
+        /// A camera of a tiny field of view could ask for any number of quads; beyond this many
+        /// none is split any more, and limitReached() tells.
+        int maxQuads = 1 << 20;
+    };
+
+    explicit TerrainNode(Parameters parameters);
+
+    const Parameters& parameters() const { return parameters_; }
+    const Deformation& deformation() const { return *parameters_.deformation; }
+
+    /// Subdivides the tree for a view, and tells what is visible. False for a view that holds what
+    /// is no number or can't be inverted: then the terrain is one invisible quad, and state() is
+    /// that of the last good view.
+    bool update(const TerrainView& view);
+    const TerrainState& state() const { return state_; }
+    bool limitReached() const { return limitReached_; }
+
+    /// Split also what is outside of the view, for data that is needed there.
+    bool splitInvisibleQuads() const { return splitInvisibleQuads_; }
+    void setSplitInvisibleQuads(bool split) { splitInvisibleQuads_ = split; }
+
+    /// Elevation of the ground below the camera, metres, from the last measurement; 0 before. Each
+    /// terrain has its own. What is no number is ignored.
+    double groundHeight() const { return groundHeight_; }
+    void setGroundHeight(double height);
+
+    const TerrainQuad& root() const { return quads_[0]; }
+    const QuadPool& quads() const { return quads_; }
+    const TerrainQuad& child(const TerrainQuad& quad, int i) const {
+        return quads_[quad.firstChild + i];
+    }
+    /// Null when the tree has no such quad.
+    const TerrainQuad* find(int level, int tx, int ty) const;
+    /// What was measured of a quad's ground; its children, present and future, are not touched.
+    void setElevations(int index, double zmin, double zmax);
+
+    /// From the camera to a quad, in local metres: the larger of the height above the ground and
+    /// the distances along x and y to the nearest side, even from inside of the quad. Infinite when
+    /// the camera has no local position.
+    double distanceToCamera(const TerrainQuad& quad) const;
+
+    /// The order in which four siblings are seen from the camera, nearest first.
+    const std::array<int, 4>& frontToBack(const TerrainQuad& quad) const;
+
+    /// Calls visit(const TerrainQuad&) for each leaf, front to back.
+    template <class Visit>
+    void forEachLeaf(Visit&& visit) const {
+        eachLeaf(root(), visit);
+    }
+
+private:
+    void updateQuad(TerrainQuad& quad, Visibility ofParent);
+    void updateChildren(TerrainQuad& quad);
+    void updateLeaf(TerrainQuad& quad);
+    bool isToSplit(const TerrainQuad& quad);
+    void resetHorizon();
+
+    template <class Visit>
+    void eachLeaf(const TerrainQuad& quad, Visit& visit) const {
+        if (quad.isLeaf()) {
+            visit(quad);
+            return;
+        }
+        for (int i : frontToBack(quad))
+            eachLeaf(child(quad, i), visit);
+    }
+
+    Parameters parameters_;
+    QuadPool quads_;
+    TerrainState state_;
+    HorizonBuffer horizon_;
+    double groundHeight_ = 0;
+    bool splitInvisibleQuads_ = false;
+    bool limitReached_ = false;
+};
+
+} // namespace terrane
