@@ -2,7 +2,9 @@
 # Compiler settings shared by every target: warnings, sanitizers, ccache with precompiled headers.
 
 add_library(terrane_options INTERFACE)
-target_compile_options(terrane_options INTERFACE -Wall -Wextra -Wpedantic)
+target_compile_options(terrane_options INTERFACE -Wall -Wextra -Wpedantic
+    # A structure with defaults is meant to be filled in by name, in part.
+    -Wno-missing-field-initializers)
 if(TERRANE_WERROR)
     target_compile_options(terrane_options INTERFACE -Werror)
 endif()
