@@ -106,8 +106,9 @@ bool writeFile(const fs::path& path, std::string_view bytes) {
     }
     std::error_code error;
     fs::rename(beside, path, error);
-    if (error) fs::remove(beside, error);
-    return !error;
+    if (!error) return true;
+    fs::remove(beside, error);
+    return false;
 }
 
 std::string shownPath(const fs::path& path) {
