@@ -53,6 +53,9 @@ public:
     Kind kind() const { return kind_; }
     std::string_view name() const { return name_; }
 
+    /// Called when the task, undone, becomes part of a graph: the last chance to change its inputs.
+    virtual void prepare() {}
+
     /// GPU tasks with equal contexts are run one after the other where possible, between one
     /// begin() of the first and one end() of the last. Null: neither is called. Unused on CPU
     /// tasks.

@@ -16,6 +16,7 @@ TaskGraph::Node TaskGraph::append(const std::shared_ptr<Task>& task) {
     if (const Node node = find(*task)) return node;
     if (task->everyFrame()) task->rearm();
     if (task->done()) return {};
+    task->prepare();
     task->graphIndex_ = static_cast<std::uint32_t>(members_.size());
     members_.push_back({task, task->ticket()});
     return Node(task->graphIndex_);
