@@ -47,9 +47,10 @@ struct AttributeDeclaration {
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
     bool minimumExcluded = false;
-    std::vector<std::string> words;   ///< of enumerations
-    std::vector<std::string> aliases; ///< other accepted spellings of the attribute's name
-    bool trueUnlessFalse = false;     ///< booleans: any word but "false" is true
+    std::vector<std::string> words;     ///< of enumerations
+    std::vector<std::string> aliases;   ///< other accepted spellings of the attribute's name
+    bool trueUnlessFalse = false;       ///< booleans: any word but "false" is true
+    bool otherWordsMeanDefault = false; ///< enumerations: an unknown word is but a warning
     bool onDemand = false; ///< references: loaded by the builder or later, not before it runs
     bool planned = false;  ///< accepted, but has no effect yet
     std::optional<std::type_index> refersTo; ///< references: interface of the resource
@@ -147,6 +148,7 @@ public:
         return self();
     }
     Derived& trueUnlessFalse() { return last().trueUnlessFalse = true, self(); }
+    Derived& otherWordsMeanDefault() { return last().otherWordsMeanDefault = true, self(); }
     Derived& onDemand() { return last().onDemand = true, self(); }
     Derived& planned() { return last().planned = true, self(); }
 

@@ -38,14 +38,17 @@ bool isReady(const RefBase& ref) {
     return ref.entry() && ref.entry()->state == ResourceEntry::State::ready;
 }
 
-// Whether all that an element itself can't do without is there.
-bool hasRequired(const ElementDeclaration& declaration, ElementDescription& description) {
+// Whether an element can be built: what it names is there, but for what is not built yet and can be
+// done without.
+bool canBuild(const ElementDeclaration& declaration, ElementDescription& description) {
     for (const AttributeDeclaration& a : declaration.attributes) {
-        if (!a.references || !a.required || a.onDemand) continue;
+        if (!a.references || a.onDemand) continue;
         std::vector<RefBase*> list;
         a.references(description, list);
-        if (!std::all_of(list.begin(), list.end(), [](RefBase* ref) { return isReady(*ref); }))
-            return false;
+        for (const RefBase* ref : list) {
+            const bool planned = ref->entry() && ref->entry()->state == ResourceEntry::State::planned;
+            if (ref->given() && !isReady(*ref) && !(planned && !a.required)) return false;
+        }
     }
     return true;
 }
@@ -123,7 +126,7 @@ void ResourceManager::describeAndBuild(ResourceEntry& entry, const FoundElement&
     // References are followed even from an invalid description, so that one run tells all.
     entry.state = ResourceEntry::State::loading;
     const bool complete = loadReferences(entry, false);
-    const bool lacksPlanned = complete && !hasRequired(*entry.declaration, *entry.description);
+    const bool lacksPlanned = complete && !canBuild(*entry.declaration, *entry.description);
     const bool planned = entry.declaration->planned || lacksPlanned;
     entry.state = planned ? ResourceEntry::State::planned : ResourceEntry::State::failed;
     if (!parsed.valid || !complete || planned) return;
@@ -155,24 +158,20 @@ bool ResourceManager::loadReferences(ResourceEntry& entry, bool onDemand) {
 void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
     BuildContext context(*this, entry, local);
     entry.state = ResourceEntry::State::loading;
-    if (buildChildren(*entry.description, context) && entry.declaration->build)
+    buildChildren(*entry.description, context);
+    if (entry.declaration->build)
         entry.instance = entry.declaration->build(*entry.description, context);
     entry.state = entry.instance ? ResourceEntry::State::ready : ResourceEntry::State::failed;
     if (!entry.instance) return;
     built_.push_back(&entry);
 }
 
-bool ResourceManager::buildChildren(ElementDescription& description, BuildContext& context) {
-    bool good = true;
+void ResourceManager::buildChildren(ElementDescription& description, BuildContext& context) {
     for (Child& child : description.children) {
-        const bool built = buildChildren(*child.description, context);
-        good &= built;
-        if (!built || !child.declaration->build) continue;
-        if (!hasRequired(*child.declaration, *child.description)) continue;
-        child.resource = child.declaration->build(*child.description, context);
-        good &= child.resource != nullptr;
+        buildChildren(*child.description, context);
+        if (child.declaration->build && canBuild(*child.declaration, *child.description))
+            child.resource = child.declaration->build(*child.description, context);
     }
-    return good;
 }
 
 void ResourceManager::resolve(const RefBase& ref, std::type_index interface,

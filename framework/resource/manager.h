@@ -56,10 +56,10 @@ public:
         return entries_;
     }
 
-    /// Builds the resources nested in a description, depth first. False if one failed.
-    bool buildChildren(ElementDescription& description, BuildContext& context);
-
 private:
+    /// Builds the resources nested in a description, depth first. One that can't be built is null:
+    /// its parent does without it.
+    void buildChildren(ElementDescription& description, BuildContext& context);
     void describeAndBuild(ResourceEntry& entry, const FoundElement& found, const Place& place);
     bool loadReferences(ResourceEntry& entry, bool onDemand);
     void build(ResourceEntry& entry, Diagnostics& local);

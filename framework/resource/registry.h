@@ -24,7 +24,8 @@ public:
     ResourceBuilder<T, D> resource(std::string tag, std::string summary) {
         ElementDeclaration& d = add(tag);
         d = {.tag = std::move(tag), .summary = std::move(summary)};
-        d.provides = {std::type_index(typeid(T)), std::type_index(typeid(Interfaces))...};
+        d.provides = {std::type_index(typeid(T)), std::type_index(typeid(Interfaces))...,
+                      std::type_index(typeid(Resource))};
         describe<D>(d);
         return ResourceBuilder<T, D>(d);
     }

@@ -12,6 +12,10 @@ public:
     Resource(const Resource&) = delete;
     Resource& operator=(const Resource&) = delete;
     virtual ~Resource() = default;
+
+protected:
+    Resource(Resource&&) = default;
+    Resource& operator=(Resource&&) = default;
 };
 
 } // namespace terrane

@@ -9,4 +9,8 @@ Resource* RefBase::instance() const {
     return entry_ ? entry_->instance.get() : nullptr;
 }
 
+std::shared_ptr<Resource> RefBase::sharedInstance() const {
+    return entry_ ? entry_->instance : nullptr;
+}
+
 } // namespace terrane

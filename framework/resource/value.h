@@ -5,6 +5,7 @@
 #include "resource/resource.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <typeindex>
@@ -67,6 +68,7 @@ public:
 
 protected:
     Resource* instance() const; // null until resolved
+    std::shared_ptr<Resource> sharedInstance() const;
 
 private:
     mutable ResourceEntry* entry_ = nullptr; // resolving is not a change of what was described
@@ -79,6 +81,8 @@ public:
     using RefBase::RefBase;
 
     T* get() const { return static_cast<T*>(instance()); }
+    /// To keep the instance of now alive, across reloads too.
+    std::shared_ptr<T> shared() const { return std::static_pointer_cast<T>(sharedInstance()); }
     T& operator*() const { return *get(); }
     T* operator->() const { return get(); }
     explicit operator bool() const { return get() != nullptr; }

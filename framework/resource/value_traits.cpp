@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "resource/declaration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -167,12 +168,16 @@ int readWord(const AttributeText& text, const AttributeDeclaration& a, Diagnosti
     for (std::size_t i = 0; i < a.words.size(); ++i) {
         if (a.words[i] == text.text) return static_cast<int>(i);
     }
-    diagnostics.report({.code = "unknown-word",
+    const auto byDefault = std::find(a.words.begin(), a.words.end(), a.defaultText);
+    const bool useDefault = a.otherWordsMeanDefault && byDefault != a.words.end();
+    diagnostics.report({.severity = useDefault ? Severity::warning : Severity::error,
+                        .code = "unknown-word",
                         .place = text.valuePlace,
-                        .message = "'" + text.text + "' is no value of '" + a.name + "'",
+                        .message = "'" + text.text + "' is no value of '" + a.name + "'" +
+                                   (useDefault ? ", and counts as '" + a.defaultText + "'" : ""),
                         .expected = listOfNames(a.words),
                         .suggestion = nearestName(text.text, a.words)});
-    return -1;
+    return useDefault ? static_cast<int>(byDefault - a.words.begin()) : -1;
 }
 
 bool readWords(const AttributeText& text, const AttributeDeclaration& a, std::vector<int>& indices,

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/bind_context.h"
+
+#include "scene/scene_manager.h"
+
+#include <algorithm>
+
+namespace terrane {
+
+Diagnostics& BindContext::diagnostics() const {
+    return scene_.resources().diagnostics();
+}
+
+ResourceManager& BindContext::resources() const {
+    return scene_.resources();
+}
+
+SceneNode* BindContext::findNode(const std::string& target) const {
+    if (target == "this") return owner_;
+    if (target.starts_with('$')) {
+        const std::string variable = target.substr(1);
+        for (const auto& [name, node] : variables_) {
+            if (name == variable) return node;
+        }
+        return nullptr;
+    }
+    const auto& nodes = scene_.nodes(target);
+    return nodes.empty() ? nullptr : nodes.front();
+}
+
+SceneNode* BindContext::nodeOf(const Attr<Target>& name) const {
+    if (name->node.empty()) return nullptr;
+    SceneNode* const node = findNode(name->node);
+    if (!node) {
+        diagnostics().warning("unknown-target", name.place,
+                              "no node matches the target '" + name->node + "'; '" + name->name +
+                                  "' is taken as the name of a resource",
+                              "'this', '$variable' of a loop around it, or a flag of a node");
+    }
+    return node;
+}
+
+void BindContext::reportMissing(const Attr<Target>& name, const SceneNode& node,
+                                const std::string& what, const std::string& expected) const {
+    const std::string which = node.name.empty() ? "the node" : "node '" + node.name + "'";
+    diagnostics().error("missing-" + what, name.place,
+                        which + " has no " + what + " '" + name->name + "'", expected);
+}
+
+void BindContext::setVariable(const std::string& name, SceneNode* node) {
+    const auto known = std::find_if(variables_.begin(), variables_.end(),
+                                    [&](const auto& v) { return v.first == name; });
+    if (known != variables_.end())
+        known->second = node;
+    else
+        variables_.emplace_back(name, node);
+}
+
+BindContext::Call::Call(BindContext& context, SceneNode& owner, const std::string& method)
+    : context_(context)
+    , caller_(context.owner_) {
+    const auto call = std::make_pair(&owner, method);
+    auto& calls = context.calls_;
+    if (std::find(calls.begin(), calls.end(), call) != calls.end()) return;
+    calls.push_back(call);
+    context.owner_ = &owner;
+    entered_ = true;
+}
+
+BindContext::Call::~Call() {
+    if (!entered_) return;
+    context_.calls_.pop_back();
+    context_.owner_ = caller_;
+}
+
+} // namespace terrane

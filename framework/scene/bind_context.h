@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/diagnostic.h"
+#include "resource/manager.h"
+#include "resource/value.h"
+#include "scene/scene_node.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace terrane {
+
+class SceneManager;
+
+/// Where a task is being bound: the node that owns the running method, and the loop variables. What
+/// is resolved here stays resolved until the scene changes.
+class BindContext {
+public:
+    BindContext(SceneManager& scene, SceneNode& owner)
+        : scene_(scene)
+        , owner_(&owner) {}
+
+    SceneManager& scene() const { return scene_; }
+    /// Owner of the method: `this`.
+    SceneNode& owner() const { return *owner_; }
+    Diagnostics& diagnostics() const;
+    ResourceManager& resources() const;
+
+    /// The node of a target (ork reference 3): `this`, `$v`, or the first one with a flag, in
+    /// document order. Null when there is none; nothing is reported.
+    SceneNode* findNode(const std::string& target) const;
+
+    /// The node of a qualified name; the owner itself must not be meant by a plain name. Null for a
+    /// plain name, and, with a warning "unknown-target", when no node matches: the name is then
+    /// taken as that of a resource, as archives of the original may rely on.
+    SceneNode* nodeOf(const Attr<Target>& name) const;
+
+    /// A field of the target node (`this.terrain`), or a resource of a plain name. Null, with an
+    /// error, when it is missing or no T.
+    template <class T>
+    T* field(const Attr<Target>& name) const {
+        if (name->node.empty()) return resources().get<T>(name->name, name.place).get();
+        SceneNode* const node = nodeOf(name);
+        if (!node) return resources().get<T>(name->name, name.place).get();
+        T* const found = node->field<T>(name->name);
+        if (!found)
+            reportMissing(name, *node, "field",
+                          resources().registry().describeInterface(typeid(T)));
+        return found;
+    }
+
+    void reportMissing(const Attr<Target>& name, const SceneNode& node, const std::string& what,
+                       const std::string& expected = {}) const;
+
+    /// For the duration of a loop's body, and, as in the original, after the loop.
+    void setVariable(const std::string& name, SceneNode* node);
+
+    /// Enters a method of a node, until the object goes. Inactive when it is being bound already:
+    /// the methods call one another in a circle.
+    class Call {
+    public:
+        Call(BindContext& context, SceneNode& owner, const std::string& method);
+        ~Call();
+        Call(const Call&) = delete;
+        Call& operator=(const Call&) = delete;
+        explicit operator bool() const { return entered_; }
+
+    private:
+        BindContext& context_;
+        SceneNode* caller_;
+        bool entered_ = false;
+    };
+
+private:
+    SceneManager& scene_;
+    SceneNode* owner_;
+    std::vector<std::pair<std::string, SceneNode*>> variables_;
+    std::vector<std::pair<SceneNode*, std::string>> calls_;
+};
+
+} // namespace terrane

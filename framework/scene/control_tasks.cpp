@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/control_tasks.h"
+
+#include "resource/registry.h"
+#include "scene/bind_context.h"
+#include "scene/frame_builder.h"
+#include "scene/scene_manager.h"
+#include "scene/scene_task.h"
+
+namespace terrane {
+
+namespace {
+
+using Tasks = std::vector<std::shared_ptr<SceneTask>>;
+
+Tasks nestedTasks(const ElementDescription& description) {
+    Tasks tasks;
+    for (const Child& child : description.children) {
+        if (auto task = child.built<SceneTask>()) tasks.push_back(std::move(task));
+    }
+    return tasks;
+}
+
+class BoundSequence : public BoundTask {
+public:
+    BoundSequence(const Tasks& tasks, BindContext& context) {
+        for (const auto& task : tasks) {
+            if (auto step = task->bind(context)) steps_.push_back(std::move(step));
+        }
+    }
+    void emit(FrameBuilder& frame) override {
+        for (const auto& step : steps_)
+            step->emit(frame);
+    }
+
+private:
+    std::vector<std::unique_ptr<BoundTask>> steps_;
+};
+
+struct SequenceDescription : ElementDescription {};
+
+/// Its tasks, one after the other. One that can't be bound is left out.
+class Sequence : public SceneTask {
+public:
+    explicit Sequence(const ElementDescription& description)
+        : tasks_(nestedTasks(description)) {}
+    std::unique_ptr<BoundTask> bind(BindContext& context) const override {
+        return std::make_unique<BoundSequence>(tasks_, context);
+    }
+
+private:
+    Tasks tasks_;
+};
+
+struct ForeachDescription : ElementDescription {
+    Attr<std::string> var;
+    Attr<std::string> flag;
+    Attr<bool> culling = false;
+    Attr<bool> parallel = false;
+};
+
+class BoundForeach : public BoundTask {
+public:
+    BoundForeach(const ForeachDescription& d, const Tasks& tasks, BindContext& context)
+        : culling_(d.culling)
+        , parallel_(d.parallel) {
+        for (SceneNode* node : context.scene().nodes(*d.flag)) {
+            context.setVariable(*d.var, node);
+            iterations_.push_back({node, std::make_unique<BoundSequence>(tasks, context)});
+        }
+    }
+
+    void emit(FrameBuilder& frame) override {
+        if (!parallel_) {
+            for (const Iteration& iteration : iterations_)
+                emit(iteration, frame);
+            return;
+        }
+        const FrameBuilder::Fork fork = frame.beginFork();
+        for (const Iteration& iteration : iterations_) {
+            emit(iteration, frame);
+            frame.endBranch(fork);
+        }
+        frame.endFork(fork);
+    }
+
+private:
+    struct Iteration {
+        SceneNode* node;
+        std::unique_ptr<BoundTask> body;
+    };
+
+    void emit(const Iteration& iteration, FrameBuilder& frame) const {
+        if (culling_ && iteration.node->visibility == Visibility::none) return;
+        iteration.body->emit(frame);
+    }
+
+    bool culling_;
+    bool parallel_;
+    std::vector<Iteration> iterations_;
+};
+
+/// Its tasks, once for each node with a flag, in document order.
+class Foreach : public SceneTask {
+public:
+    explicit Foreach(const ForeachDescription& description)
+        : description_(description)
+        , tasks_(nestedTasks(description)) {}
+    std::unique_ptr<BoundTask> bind(BindContext& context) const override {
+        return std::make_unique<BoundForeach>(description_, tasks_, context);
+    }
+
+private:
+    ForeachDescription description_;
+    Tasks tasks_;
+};
+
+struct CallMethodDescription : ElementDescription {
+    Attr<Target> method;
+};
+
+class BoundCall : public BoundTask {
+public:
+    BoundCall(const NodeMethod& method, std::unique_ptr<BoundTask> body)
+        : method_(method)
+        , body_(std::move(body)) {}
+    void emit(FrameBuilder& frame) override {
+        if (method_.enabled) body_->emit(frame);
+    }
+
+private:
+    const NodeMethod& method_;
+    std::unique_ptr<BoundTask> body_;
+};
+
+/// Runs a method of a node, with that node as `this`.
+class CallMethod : public SceneTask {
+public:
+    explicit CallMethod(const CallMethodDescription& description)
+        : name_(description.method) {}
+
+    std::unique_ptr<BoundTask> bind(BindContext& context) const override {
+        SceneNode* const node = name_->node.empty() ? nullptr : context.findNode(name_->node);
+        if (!node) {
+            context.diagnostics().error("unknown-target", name_.place,
+                                        "no node matches the target of '" + name_->name + "'",
+                                        "'this.method', '$variable.method' or 'flag.method'");
+            return nullptr;
+        }
+        const auto method = node->methods.find(name_->name);
+        if (method == node->methods.end()) {
+            context.reportMissing(name_, *node, "method");
+            return nullptr;
+        }
+        const BindContext::Call call(context, *node, name_->name);
+        if (!call) {
+            context.diagnostics().error("cycle", name_.place,
+                                        "method '" + name_->name + "' calls itself");
+            return nullptr;
+        }
+        auto body = method->second.task->bind(context);
+        if (!body) return nullptr;
+        return std::make_unique<BoundCall>(method->second, std::move(body));
+    }
+
+private:
+    Attr<Target> name_;
+};
+
+} // namespace
+
+void declareControlTasks(Registry& registry) {
+    registry.nameInterface<SceneTask>("a task");
+    registry
+        .resource<Sequence, SequenceDescription, SceneTask>("sequence",
+                                                            "Tasks one after the other.")
+        .children<SceneTask>("the tasks, in order")
+        .build([](const SequenceDescription& d, BuildContext&) {
+            return std::make_shared<Sequence>(d);
+        });
+
+    using F = ForeachDescription;
+    registry.resource<Foreach, F, SceneTask>("foreach", "Tasks for each node that has a flag.")
+        .attribute("var", &F::var, "loop variable, used as $var")
+        .required()
+        .attribute("flag", &F::flag, "flag (or name) of the nodes")
+        .required()
+        .attribute("culling", &F::culling, "leaves out nodes that the camera can't see")
+        .attribute("parallel", &F::parallel, "no order among the nodes")
+        .children<SceneTask>("the tasks, in order")
+        .build([](const F& d, BuildContext&) { return std::make_shared<Foreach>(d); });
+
+    using C = CallMethodDescription;
+    registry.resource<CallMethod, C, SceneTask>("callMethod", "Runs a method of a node.")
+        .attribute("name", &C::method, "target and method id, such as 'this.draw' or '$o.draw'")
+        .required()
+        .build([](const C& d, BuildContext&) { return std::make_shared<CallMethod>(d); });
+}
+
+} // namespace terrane

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/draw_mesh.h"
+
+#include "render/framebuffer.h"
+#include "render/mesh.h"
+#include "render/program.h"
+#include "resource/registry.h"
+#include "scene/bind_context.h"
+#include "scene/scene_manager.h"
+
+namespace terrane {
+
+namespace {
+
+struct DrawMeshDescription : ElementDescription {
+    Attr<Target> mesh;
+    Attr<int> count = 1;
+};
+
+class DrawMeshTask : public FrameTask {
+public:
+    DrawMeshTask(Mesh& mesh, int count, const Place& place, SceneManager& scene)
+        : FrameTask("DrawMesh")
+        , mesh_(mesh)
+        , count_(count)
+        , place_(place)
+        , scene_(scene) {}
+
+    bool run() override {
+        const DrawState& state = scene_.drawState();
+        if (!state.program) {
+            scene_.resources().diagnostics().error(
+                "no-program", place_, "there is no program to draw with", "a setProgram before it");
+            return false;
+        }
+        state.framebuffer->use();
+        state.program->use();
+        mesh_.draw(count_);
+        return true;
+    }
+
+private:
+    Mesh& mesh_;
+    int count_;
+    Place place_;
+    SceneManager& scene_;
+};
+
+class DrawMesh : public SceneTask {
+public:
+    explicit DrawMesh(const DrawMeshDescription& d)
+        : mesh_(d.mesh)
+        , count_(d.count) {}
+    std::unique_ptr<BoundTask> bind(BindContext& context) const override {
+        Mesh* const mesh = findMesh(mesh_, context);
+        if (!mesh) return nullptr;
+        return makeStep<DrawMeshTask>(*mesh, count_, mesh_.place, context.scene());
+    }
+
+private:
+    Attr<Target> mesh_;
+    int count_;
+};
+
+} // namespace
+
+Mesh* findMesh(const Attr<Target>& name, BindContext& context) {
+    SceneNode* const node = context.nodeOf(name);
+    if (!node) return context.resources().get<Mesh>(name->name + ".mesh", name.place).get();
+    const auto mesh = node->meshes.find(name->name);
+    if (mesh != node->meshes.end()) return mesh->second.get();
+    context.reportMissing(name, *node, "mesh");
+    return nullptr;
+}
+
+void declareDrawMesh(Registry& registry) {
+    using D = DrawMeshDescription;
+    registry.resource<DrawMesh, D, SceneTask>("drawMesh", "Draws a mesh with the current program.")
+        .attribute("name", &D::mesh, "'target.mesh id', or 'm' for the resource 'm.mesh'")
+        .required()
+        .attribute("count", &D::count, "number of instances")
+        .atLeast(0)
+        .build([](const D& d, BuildContext&) { return std::make_shared<DrawMesh>(d); });
+}
+
+} // namespace terrane
