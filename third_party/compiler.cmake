@@ -8,9 +8,13 @@ target_compile_options(terrane_options INTERFACE -Wall -Wextra -Wpedantic
 if(TERRANE_WERROR)
     target_compile_options(terrane_options INTERFACE -Werror)
 endif()
+
+# Programs link this: in a sanitizer build it holds the options and suppressions.
+add_library(terrane_sanitizer_options INTERFACE)
 if(TERRANE_SANITIZE)
     add_compile_options(-fsanitize=${TERRANE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${TERRANE_SANITIZE})
+    target_sources(terrane_sanitizer_options INTERFACE ${PROJECT_SOURCE_DIR}/tests/sanitizers/options.cpp)
 endif()
 
 find_program(CCACHE_PROGRAM ccache)
@@ -20,8 +24,10 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
                  CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CCACHE_PROGRAM})
     set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
     set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
-    # ccache can only reuse what includes a precompiled header when the compiler says which it was.
-    add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
+    if(TERRANE_PCH)
+        # ccache can only reuse what includes a precompiled header when the compiler says which it was.
+        add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
+    endif()
 endif()
 find_program(MOLD_PROGRAM mold)
 if(MOLD_PROGRAM)
