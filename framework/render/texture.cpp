@@ -342,6 +342,18 @@ void Texture::generateMipmaps() {
     if (levels() > 1) context_->gl().GenerateTextureMipmap(name_);
 }
 
+void Texture::generateMipmaps(int layer) {
+    assert(description_.target == T::texture2DArray && "Texture::generateMipmaps(): no 2D array");
+    if (levels() == 1) return;
+    const auto& gl = context_->gl();
+    GLuint view = 0; // OpenGL generates levels for whole textures only: this one is the layer
+    gl.GenTextures(1, &view);
+    gl.TextureView(view, GL_TEXTURE_2D, name_, format_->storage, 0, GLuint(levels()),
+                   GLuint(layer), 1);
+    gl.GenerateTextureMipmap(view);
+    gl.DeleteTextures(1, &view);
+}
+
 void Texture::resize(int width, int height) {
     if (width == description_.width && height == description_.height) return;
     destroy();

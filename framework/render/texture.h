@@ -103,6 +103,8 @@ public:
 
     /// Fills the levels above 0 from level 0. Nothing happens without such levels.
     void generateMipmaps();
+    /// The same for one layer of a 2D array.
+    void generateMipmaps(int layer);
 
     /// New storage of another size if it differs; the contents are lost.
     void resize(int width, int height);
