@@ -348,8 +348,8 @@ void Texture::generateMipmaps(int layer) {
     const auto& gl = context_->gl();
     GLuint view = 0; // OpenGL generates levels for whole textures only: this one is the layer
     gl.GenTextures(1, &view);
-    gl.TextureView(view, GL_TEXTURE_2D, name_, format_->storage, 0, GLuint(levels()),
-                   GLuint(layer), 1);
+    gl.TextureView(view, GL_TEXTURE_2D, name_, format_->storage, 0, GLuint(levels()), GLuint(layer),
+                   1);
     gl.GenerateTextureMipmap(view);
     gl.DeleteTextures(1, &view);
 }
