@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "resource/resource.h"
 #include "terrain/horizon_buffer.h"
 #include "terrain/quad_pool.h"
 #include "terrain/terrain_state.h"
@@ -17,7 +18,7 @@ namespace terrane {
 /// camera is nearer than splitDistance times its size, in local space. Leaves that touch differ by
 /// at most one level as long as invisible quads are split, too. Not thread-safe: the thread that
 /// updates also reads (terrain reference 1.4, 3.1).
-class TerrainNode {
+class TerrainNode final : public Resource {
 public:
     /// Beyond this, tile coordinates would not fit their integers.
     static constexpr int kDeepestLevel = 30;

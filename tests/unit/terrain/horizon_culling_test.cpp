@@ -185,6 +185,9 @@ TEST_CASE("A wall hides what is lower and behind, and nothing else") {
         {"behind, up to its top edge", {-10, 400, 20, 0, 29}, true},
         {"beside", {400, 300, 20, 0, 15}, false},
         {"half behind", {60, 230, 100, 0, 15}, false},
+        // The wall ends at column 170.24.
+        {"past its edge, in the same column", {504.2, 1000, 0.1, 0, 5}, false},
+        {"just before its edge", {490, 1000, 0.1, 0, 5}, true},
         {"beyond the buffer", {900, 300, 20, 0, 1}, false},
         {"behind the camera", {-10, -300, 20, 0, 1}, false},
         {"around the camera", {-10, -10, 20, 0, 1}, false},
