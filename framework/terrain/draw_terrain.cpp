@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/draw_terrain.h"
+
+#include "render/framebuffer.h"
+#include "render/mesh.h"
+#include "scene/scene_manager.h"
+#include "terrain/terrain_node.h"
+#include "terrain/tile_sampler.h"
+
+namespace terrane {
+
+DeformationUniforms::DeformationUniforms(Program& program)
+    : blending(program.find("deformation.blending"))
+    , localToScreen(program.find("deformation.localToScreen"))
+    , radius(program.find("deformation.radius"))
+    , localToWorld(program.find("deformation.localToWorld"))
+    , offset(program.find("deformation.offset"))
+    , camera(program.find("deformation.camera"))
+    , tileToTangent(program.find("deformation.tileToTangent"))
+    , screenQuadCorners(program.find("deformation.screenQuadCorners"))
+    , screenQuadVerticals(program.find("deformation.screenQuadVerticals"))
+    , screenQuadCornerNorms(program.find("deformation.screenQuadCornerNorms"))
+    , tangentFrameToWorld(program.find("deformation.tangentFrameToWorld")) {}
+
+void DeformationUniforms::set(const NodeUniforms& values) const {
+    blending.set(values.blending);
+    localToScreen.set(values.localToScreen);
+    radius.set(values.radius);
+    // A mat3 in shaders of spheres, a mat4 in those of cylinders.
+    if (localToWorld.type().columns == 3)
+        localToWorld.set(glm::mat3(values.localToWorld));
+    else
+        localToWorld.set(values.localToWorld);
+}
+
+void DeformationUniforms::set(const QuadUniforms& values) const {
+    offset.set(values.offset);
+    camera.set(values.camera);
+    tileToTangent.set(values.tileToTangent);
+    screenQuadCorners.set(values.screenQuadCorners);
+    screenQuadVerticals.set(values.screenQuadVerticals);
+    screenQuadCornerNorms.set(values.screenQuadCornerNorms);
+    tangentFrameToWorld.set(values.tangentFrameToWorld);
+}
+
+SamplerUniforms::SamplerUniforms(Program& program, const std::string& name)
+    : pool(program.find(name + ".tilePool"))
+    , coords(program.find(name + ".tileCoords"))
+    , size(program.find(name + ".tileSize")) {}
+
+void SamplerUniforms::set(const TileLocation& location) const {
+    pool.set(*location.pool);
+    coords.set(location.coords);
+    size.set(location.size);
+}
+
+DrawTerrainTask::DrawTerrainTask(const TerrainNode& terrain, const Mesh& mesh,
+                                 std::vector<const TileSampler*> samplers, bool culling,
+                                 const Place& place, SceneManager& scene)
+    : FrameTask("DrawTerrain")
+    , terrain_(terrain)
+    , mesh_(mesh)
+    , samplers_(std::move(samplers))
+    , culling_(culling)
+    , place_(place)
+    , scene_(scene) {}
+
+void DrawTerrainTask::resolve(Program& program) {
+    program_ = &program;
+    deformationUniforms_ = DeformationUniforms(program);
+    samplerUniforms_.clear();
+    for (const TileSampler* sampler : samplers_)
+        samplerUniforms_.emplace_back(program, sampler->parameters().uniform);
+}
+
+bool DrawTerrainTask::locateTiles(const TerrainQuad& quad) {
+    const std::size_t before = tiles_.size();
+    for (const TileSampler* sampler : samplers_) {
+        tiles_.push_back(sampler->locate(terrain_, quad));
+        if (tiles_.back().pool) continue;
+        tiles_.resize(before);
+        return false;
+    }
+    return true;
+}
+
+void DrawTerrainTask::gather() {
+    quads_.clear();
+    tiles_.clear();
+    terrain_.forEachLeaf([&](const TerrainQuad& quad) {
+        if (culling_ && !quad.isVisible()) return;
+        if (!locateTiles(quad)) return;
+        quads_.push_back(quadUniforms(terrain_.deformation(), terrain_.state(), quad));
+    });
+}
+
+bool DrawTerrainTask::run() {
+    const DrawState& state = scene_.drawState();
+    if (!state.program) {
+        scene_.resources().diagnostics().error(
+            "no-program", place_, "there is no program to draw with", "a setProgram before it");
+        return false;
+    }
+    if (state.program != program_) resolve(*state.program);
+    gather();
+    state.framebuffer->use();
+    deformationUniforms_.set(nodeUniforms(terrain_.deformation(), terrain_.state()));
+    for (std::size_t i = 0; i < quads_.size(); ++i) {
+        deformationUniforms_.set(quads_[i]);
+        for (std::size_t s = 0; s < samplers_.size(); ++s)
+            samplerUniforms_[s].set(tiles_[i * samplers_.size() + s]);
+        state.program->use();
+        mesh_.draw();
+    }
+    return true;
+}
+
+} // namespace terrane

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "producer/tile_producer.h"
+#include "resource/value.h"
+#include "terrain/terrain_node.h"
+#include "terrain/tile_location.h"
+
+#include <string>
+#include <vector>
+
+namespace terrane {
+
+class Diagnostics;
+class FrameBuilder;
+class Registry;
+class SceneManager;
+
+/// Links a terrain to a producer of GPU tiles: acquires a tile for each quad that needs one, keeps
+/// it as long as it does, and tells shaders where it is (terrain reference 1.5, 3.5). GL thread.
+class TileSampler : public Resource {
+public:
+    struct Parameters {
+        std::string uniform; ///< name of the `samplerTile` variable
+        Ref<TileProducer> producer;
+        bool storeLeaf = true;      ///< leaves need tiles
+        bool storeParent = true;    ///< divided quads, too
+        bool storeInvisible = true; ///< quads outside of the view, too
+        Place place;                ///< for messages
+    };
+
+    explicit TileSampler(Parameters parameters);
+    ~TileSampler() override;
+
+    const Parameters& parameters() const { return parameters_; }
+    TileProducer& producer() const { return *parameters_.producer; }
+
+    /// Releases and acquires tiles for the quads of now. The frame waits for those that have to be
+    /// produced. A full cache is reported once ("cache-full"); quads then do with ancestors.
+    void update(const TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame);
+
+    /// The tile of a quad, or of its nearest ancestor that has one with data.
+    TileLocation locate(const TerrainNode& terrain, const TerrainQuad& quad) const;
+
+    /// Whether every tile that the last update wanted is there, with data.
+    bool isComplete() const;
+
+private:
+    /// The tile held for the quad at this place of the pool.
+    struct Held {
+        Tile* tile = nullptr;
+        std::uint32_t generation = 0;
+    };
+
+    bool needs(const TerrainQuad& quad) const;
+    void release(const TerrainNode& terrain);
+    void acquire(const TerrainNode& terrain);
+    void releaseAll();
+    void require(FrameBuilder& frame);
+    void reportShortage(Diagnostics& diagnostics);
+    const Tile* held(const TerrainQuad& quad) const;
+
+    Parameters parameters_;
+    const TerrainNode* terrain_ = nullptr; ///< whose quads are held
+    std::vector<Held> held_;               ///< by index of the quad
+    std::vector<int> heldQuads_;           ///< indices with a tile
+    std::vector<int> queue_;               ///< quads to visit, coarse ones first
+    bool refused_ = false;                 ///< the last update did not get all tiles
+};
+
+/// <tileSampler>
+void declareTileSampler(Registry& registry);
+
+} // namespace terrane
