@@ -35,7 +35,7 @@ JobQueue::Index JobQueue::jobOf(const TaskGraph::Member& member, const DurationT
     if (task.done()) return kNone;
     // Inputs that are done push no date any more.
     for (const auto& input : task.predecessors())
-        task.raisePredecessorsDate(input->completionDate());
+        task.raisePredecessorsDate(input->changeDate());
 
     const Index known = task.job_;
     if (known == kNone) return create(member.task, member.ticket, durations);
@@ -202,7 +202,7 @@ void JobQueue::setState(Job& job, State state) {
 void JobQueue::makeReady(Index index) {
     Job& job = jobs_[index];
     if (!job.task) {
-        end(index, 0, true);
+        end(index, true);
         return;
     }
     setState(job, State::ready);
@@ -222,32 +222,32 @@ bool JobQueue::start(Index index) {
     setState(job, State::running);
     const Task::Start start = job.task->start(job.ticket, job.tainted);
     if (start == Task::Start::run) return true;
-    end(index, job.task->completionDate(), start == Task::Start::skipped);
+    end(index, start == Task::Start::skipped);
     return false;
 }
 
 void JobQueue::finish(Index index, Task::Date now, bool changed, bool failed) {
     const Job& job = jobs_[index];
     const bool done = job.task->complete(now, changed, failed, job.ticket, job.tainted);
-    end(index, changed ? now : job.task->completionDate(), done);
+    end(index, done);
 }
 
-void JobQueue::end(Index index, Task::Date date, bool done) {
+void JobQueue::end(Index index, bool done) {
     // Joins that become ready end too, one after the other rather than one inside the other.
     joins_.assign(1, index);
     for (std::size_t i = 0; i < joins_.size(); ++i) {
-        releaseSuccessors(joins_[i], date, done);
+        releaseSuccessors(joins_[i], done);
         free(joins_[i]);
     }
 }
 
-void JobQueue::releaseSuccessors(Index index, Task::Date date, bool done) {
+void JobQueue::releaseSuccessors(Index index, bool done) {
     Index edge = jobs_[index].firstOut;
     while (edge != kNone) {
         const Edge released = edges_[edge];
         Job& later = jobs_[released.to];
         if (released.input) {
-            later.task->raisePredecessorsDate(date);
+            later.task->raisePredecessorsDate(jobs_[index].task->changeDate());
             later.tainted |= !done;
         }
         unlinkIn(edge);

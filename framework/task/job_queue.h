@@ -98,8 +98,8 @@ private:
     void lower(Index job, unsigned deadline);
     void makeReady(Index job);
     void block(Index job);
-    void end(Index job, Task::Date date, bool done);
-    void releaseSuccessors(Index job, Task::Date date, bool done);
+    void end(Index job, bool done);
+    void releaseSuccessors(Index job, bool done);
     void unlinkIn(Index edge);
     void unlinkOut(Index edge);
     void free(Index job);

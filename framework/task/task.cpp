@@ -87,6 +87,7 @@ Task::Start Task::start(Ticket ticket, bool tainted) {
 bool Task::complete(Date now, bool changed, bool failed, Ticket ticket, bool tainted) {
     const std::lock_guard lock(mutex_);
     failed_ = failed;
+    if (changed) changeDate_ = now;
     // Data that changed during the run may not have been seen: the date stays 0, it runs again.
     if (changed && dataMarks_ == dataMarksAtStart_) completionDate_ = now;
     return settle(ticket, tainted);

@@ -83,6 +83,9 @@ public:
     /// True when the last run() threw. It counts as done all the same, so that a frame goes on.
     bool failed() const { return failed_.load(std::memory_order_relaxed); }
     Date completionDate() const { return completionDate_.load(std::memory_order_relaxed); }
+    /// Like completionDate(), but kept when the latter is reset so that the task runs again: what
+    /// dependents that haven't run since compare themselves with.
+    Date changeDate() const { return changeDate_.load(std::memory_order_relaxed); }
     Date predecessorsDate() const { return predecessorsDate_.load(std::memory_order_relaxed); }
 
     /// Makes `earlier` an input: it is kept alive, and runs before. An input that is listed already
@@ -134,6 +137,7 @@ private:
     std::atomic<bool> done_ = false;
     std::atomic<bool> failed_ = false;
     std::atomic<Date> completionDate_ = 0;
+    std::atomic<Date> changeDate_ = 0;
     std::atomic<Date> predecessorsDate_ = 1;
 
     mutable std::mutex mutex_; // guards the changes of the state above and the following

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "task/task.h"
 #include "task/multithread_scheduler.h"
+#include "task/task.h"
 #include "task/task_graph.h"
 
 #include "test_task.h"
