@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/initial_uniform_elements.h"
+
+#include "core/text.h"
+#include "resource/registry.h"
+
+#include <array>
+
+namespace terrane {
+
+namespace {
+
+struct VectorElement : ElementDescription {
+    Attr<std::string> uniform;
+    Attr<double> x = 0, y = 0, z = 0, w = 0;
+
+    std::array<const Attr<double>*, 4> components() const { return {&x, &y, &z, &w}; }
+};
+
+struct MatrixElement : ElementDescription {
+    Attr<std::string> uniform;
+    Attr<std::string> value;
+};
+
+struct SamplerElement : ElementDescription {
+    Attr<std::string> uniform;
+    Ref<Texture> texture;
+};
+
+struct SubroutineElement : ElementDescription {
+    Attr<std::string> uniform;
+    Attr<std::string> subroutine;
+    Attr<std::string> stage;
+};
+
+bool isSize(char c, char least) {
+    return c >= least && c <= '4';
+}
+
+// `uniform3f` and so on; null for a tag that is none of them.
+const UniformType* vectorType(std::string_view tag) {
+    tag.remove_prefix(std::string_view("uniform").size());
+    if (tag.empty() || !isSize(tag[0], '1')) return nullptr;
+    const int rows = tag[0] - '0';
+    const std::string_view suffix = tag.substr(1);
+    UniformKind kind = UniformKind::none;
+    if (suffix == "f") kind = UniformKind::float32;
+    if (suffix == "d") kind = UniformKind::float64;
+    if (suffix == "i") kind = UniformKind::int32;
+    if (suffix == "b") kind = UniformKind::boolean;
+    if (suffix == "vi" || suffix == "ui") kind = UniformKind::uint32;
+    return findUniformType(kind, 1, rows);
+}
+
+// `uniformMatrix3f`, `uniformMatrix2x4d`, also without the last letter, which means float.
+const UniformType* matrixType(std::string_view tag) {
+    tag.remove_prefix(std::string_view("uniformMatrix").size());
+    if (tag.empty() || !isSize(tag[0], '2')) return nullptr;
+    const int columns = tag[0] - '0';
+    int rows = columns;
+    tag.remove_prefix(1);
+    if (tag.size() >= 2 && tag[0] == 'x' && isSize(tag[1], '2')) {
+        rows = tag[1] - '0';
+        tag.remove_prefix(2);
+    }
+    if (!tag.empty() && tag != "f" && tag != "d") return nullptr;
+    return findUniformType(tag == "d" ? UniformKind::float64 : UniformKind::float32, columns, rows);
+}
+
+void unknownTag(const ElementDescription& d, std::string expected, Diagnostics& diagnostics) {
+    diagnostics.error("unknown-element", d.place, "there is no <" + d.tag + ">",
+                      std::move(expected));
+}
+
+void checkVector(const VectorElement& d, Diagnostics& diagnostics) {
+    const UniformType* const type = vectorType(d.tag);
+    if (!type)
+        return unknownTag(d,
+                          "<uniform1f> to <uniform4f>, with 'd', 'i', 'b' or 'ui' for 'f', "
+                          "<uniformMatrix...> or <uniformSampler>",
+                          diagnostics);
+    constexpr std::array names{"x", "y", "z", "w"};
+    for (int i = type->rows; i < 4; ++i) {
+        if (!d.components()[i]->given) continue;
+        diagnostics.error("unknown-attribute", d.components()[i]->place,
+                          "<" + d.tag + "> has no attribute '" + names[i] + "'");
+    }
+}
+
+// The numbers of a matrix, which are written row by row. Nothing, with a diagnostic, when they are
+// too few.
+std::optional<UniformValue> matrixValue(const MatrixElement& d, const UniformType& type,
+                                        Diagnostics* diagnostics) {
+    const auto fail = [&](std::size_t offset, std::string message, std::string expected) {
+        if (diagnostics)
+            diagnostics->error("bad-value", {d.value.place.file, d.value.place.offset + offset},
+                               std::move(message), std::move(expected));
+        return std::nullopt;
+    };
+    UniformValue value(type);
+    const std::string& text = *d.value;
+    if (text == "zero") return value;
+    if (text == "identity") {
+        if (type.columns != type.rows)
+            return fail(0, "a " + std::string(type.name) + " has no identity",
+                        "'zero', or numbers");
+        for (int i = 0; i < type.columns; ++i)
+            value.setComponent(i * type.rows + i, 1);
+        return value;
+    }
+    const std::vector<std::string_view> pieces = split(text, ',');
+    const auto count = static_cast<std::size_t>(type.components());
+    const std::string expected =
+        std::to_string(count) + " numbers row by row, 'identity' or 'zero'";
+    std::size_t offset = 0;
+    for (std::size_t i = 0; i < std::min(count, pieces.size()); ++i) {
+        const auto number = parseReal(pieces[i]);
+        if (!number || !isBlank(pieces[i].substr(number->length)))
+            return fail(offset, "'" + std::string(pieces[i]) + "' is no number", expected);
+        const int row = static_cast<int>(i) / type.columns;
+        const int column = static_cast<int>(i) % type.columns;
+        value.setComponent(column * type.rows + row, number->value);
+        offset += pieces[i].size() + 1;
+    }
+    if (pieces.size() < count)
+        return fail(
+            0, "a " + std::string(type.name) + " of " + std::to_string(pieces.size()) + " numbers",
+            expected);
+    if (pieces.size() > count && diagnostics)
+        diagnostics->warning("extra-values", {d.value.place.file, d.value.place.offset + offset},
+                             "the numbers from here on have no effect", expected);
+    return value;
+}
+
+void checkMatrix(const MatrixElement& d, Diagnostics& diagnostics) {
+    if (const UniformType* const type = matrixType(d.tag))
+        matrixValue(d, *type, &diagnostics);
+    else
+        unknownTag(d, "<uniformMatrix2f> to <uniformMatrix4d>, or <uniformMatrix2x3f> and so on",
+                   diagnostics);
+}
+
+void checkSubroutine(const SubroutineElement& d, Diagnostics& diagnostics) {
+    diagnostics.warning("not-built-yet", d.place, "<" + d.tag + "> has no effect yet");
+}
+
+std::optional<UniformValue> vectorValue(const VectorElement& d) {
+    const UniformType* const type = vectorType(d.tag);
+    if (!type) return std::nullopt;
+    UniformValue value(*type);
+    for (int i = 0; i < type->rows; ++i)
+        value.setComponent(i, *d.components()[i]);
+    return value;
+}
+
+InitialUniform named(const Attr<std::string>& name, UniformValue value) {
+    return {.name = *name, .place = name.place, .value = value, .texture = {}};
+}
+
+const char* const kNameSummary =
+    "the uniform, such as 'u', 'views[3]', 'fog.tint', or 'Block.member'";
+
+} // namespace
+
+std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry) {
+    const auto& matrix =
+        registry
+            .element<MatrixElement>("uniformMatrix",
+                                    "Initial value of a matrix: uniformMatrixNX or "
+                                    "uniformMatrixNxMX with N columns, M rows, and X = f or d.")
+            .prefix()
+            .attribute("name", &MatrixElement::uniform, kNameSummary)
+            .required()
+            .attribute("value", &MatrixElement::value,
+                       "its numbers row by row, or 'identity' or 'zero'")
+            .required()
+            .check(checkMatrix)
+            .declaration();
+    const auto& sampler =
+        registry
+            .element<SamplerElement>("uniformSampler", "The texture that a sampler starts with.")
+            .attribute("name", &SamplerElement::uniform, kNameSummary)
+            .required()
+            .attribute("texture", &SamplerElement::texture, "the texture, or an image file")
+            .required()
+            .declaration();
+    const auto& subroutine =
+        registry
+            .element<SubroutineElement>("uniformSubroutine",
+                                        "The subroutine that a subroutine uniform starts with.")
+            .attribute("name", &SubroutineElement::uniform, "the subroutine uniform")
+            .required()
+            .attribute("subroutine", &SubroutineElement::subroutine, "the function")
+            .required()
+            .attribute("stage", &SubroutineElement::stage,
+                       "VERTEX, TESSELATION_CONTROL, TESSELATION_EVALUATION, GEOMETRY or FRAGMENT")
+            .required()
+            .check(checkSubroutine)
+            .declaration();
+    const auto& vector =
+        registry
+            .element<VectorElement>("uniform",
+                                    "Initial value of a scalar or vector: uniformNX with 1 to 4 "
+                                    "components and X = f, d, i, b or ui.")
+            .prefix()
+            .attribute("name", &VectorElement::uniform, kNameSummary)
+            .required()
+            .attribute("x", &VectorElement::x, "first component")
+            .attribute("y", &VectorElement::y, "second component")
+            .attribute("z", &VectorElement::z, "third component")
+            .attribute("w", &VectorElement::w, "fourth component")
+            .check(checkVector)
+            .declaration();
+    return {&matrix, &sampler, &subroutine, &vector};
+}
+
+std::optional<InitialUniform> initialUniform(const Child& child) {
+    if (const auto* sampler = child.as<SamplerElement>())
+        return InitialUniform{.name = *sampler->uniform,
+                              .place = sampler->uniform.place,
+                              .value = {},
+                              .texture = sampler->texture};
+    std::optional<UniformValue> value;
+    if (const auto* vector = child.as<VectorElement>()) {
+        if ((value = vectorValue(*vector))) return named(vector->uniform, *value);
+    }
+    if (const auto* matrix = child.as<MatrixElement>()) {
+        const UniformType* const type = matrixType(matrix->tag);
+        if (type && (value = matrixValue(*matrix, *type, nullptr)))
+            return named(matrix->uniform, *value);
+    }
+    return std::nullopt;
+}
+
+} // namespace terrane
