@@ -91,17 +91,11 @@ private:
         return false;
     }
 
-    std::string shownToken() const {
-        constexpr std::size_t longest = 40;
-        std::string shown(token_.substr(0, longest));
-        return "'" + shown + (token_.size() > longest ? "...'" : "'");
-    }
-
     bool real(std::string_view what, double& value) {
         if (!next(what)) return false;
         const auto number = parseReal(token_);
         if (!number || number->length != token_.size() || !std::isfinite(number->value)) {
-            return fail("bad number " + shownToken(), std::string(what));
+            return fail("bad number " + inQuotes(token_), std::string(what));
         }
         value = number->value;
         return true;
@@ -115,10 +109,10 @@ private:
         const auto [end, error] =
             std::from_chars(digits.data(), digits.data() + digits.size(), value);
         if (error != std::errc{} || end != digits.data() + digits.size()) {
-            return fail("bad number " + shownToken(), std::string(what));
+            return fail("bad number " + inQuotes(token_), std::string(what));
         }
         if (value < smallest || value > largest) {
-            return fail("number " + shownToken() + " is out of range",
+            return fail("number " + inQuotes(token_) + " is out of range",
                         std::string(what) + ", " + std::to_string(smallest) + " to " +
                             std::to_string(largest));
         }
@@ -136,7 +130,7 @@ private:
             }
             names.emplace_back(candidate.text);
         }
-        return fail("unknown " + std::string(what) + " " + shownToken(), listOfNames(names),
+        return fail("unknown " + std::string(what) + " " + inQuotes(token_), listOfNames(names),
                     nearestName(token_, names));
     }
 
@@ -217,7 +211,7 @@ private:
             }
             const auto single = float(value);
             if (!std::isfinite(single)) {
-                return fail("number " + shownToken() + " is out of range", std::string(what));
+                return fail("number " + inQuotes(token_) + " is out of range", std::string(what));
             }
             std::memcpy(out, &single, sizeof single);
             return true;

@@ -97,7 +97,8 @@ public:
     /// Zeroes all levels.
     void clear();
 
-    /// Reads back in `format().transfer` or another layout. Waits for the GPU.
+    /// Reads back in `format().transfer` or another layout; of compressed textures only whole
+    /// blocks. Waits for the GPU.
     std::vector<std::byte> download(const TextureRegion& region, TransferLayout layout) const;
     std::vector<std::byte> download(const TextureRegion& region) const;
 
