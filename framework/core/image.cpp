@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/image.h"
 
+#include "core/image_decoder.h"
+
 #define STBI_NO_STDIO
 #include <stb_image.h>
 
@@ -71,33 +73,6 @@ struct Reader {
 
 constexpr stbi_io_callbacks kCallbacks{&Reader::read, &Reader::skip, &Reader::atEnd};
 
-// Where the decoders below say what is wrong; empty when nothing is.
-struct Problem {
-    std::string message;
-    std::string expected;
-};
-
-// The size an image would take, or a problem when that is absurd.
-bool sizeIsSane(int width, int height, std::uint64_t pixelSize, std::size_t fileSize,
-                Problem& problem) {
-    // A header that ends within its numbers gives 0, and a Radiance header may have negative ones.
-    if (width < 1 || height < 1) {
-        problem = {"the image has no pixels", {}};
-        return false;
-    }
-    const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
-    const std::string size = std::to_string(width) + "x" + std::to_string(height);
-    if (pixels > kLargestImage / pixelSize) {
-        problem = {size + " pixels are too many", "an image of at most 1 GiB in memory"};
-        return false;
-    }
-    if (pixels / kMostPixelsPerByte > fileSize) {
-        problem = {"the file is too short for its " + size + " pixels", {}};
-        return false;
-    }
-    return true;
-}
-
 bool isRaw(std::string_view bytes) {
     if (bytes.size() < kRawTrailerSize) return false;
     std::uint32_t magic = 0;
@@ -105,7 +80,7 @@ bool isRaw(std::string_view bytes) {
     return magic == kRawMagic;
 }
 
-std::optional<Image> decodeRaw(std::string_view bytes, Problem& problem) {
+std::optional<Image> decodeRaw(std::string_view bytes, ImageProblem& problem) {
     static_assert(std::endian::native == std::endian::little, "raw float files are little-endian");
     const std::size_t payload = bytes.size() - kRawTrailerSize;
     std::array<std::int32_t, 5> trailer{};
@@ -120,7 +95,7 @@ std::optional<Image> decodeRaw(std::string_view bytes, Problem& problem) {
         return std::nullopt;
     }
     const std::uint64_t pixelSize = 4 * std::uint64_t(channels);
-    if (!sizeIsSane(width, height, pixelSize, bytes.size(), problem)) return std::nullopt;
+    if (!imageSizeIsSane(width, height, pixelSize, bytes.size(), problem)) return std::nullopt;
     const std::uint64_t expected = std::uint64_t(width) * std::uint64_t(height) * pixelSize;
     if (expected != payload) {
         problem = {"raw float data of " + std::to_string(payload) + " bytes before the trailer",
@@ -148,7 +123,7 @@ Image fromTopDown(const Pixels& pixels, int width, int height, int channels, Pix
     return image;
 }
 
-std::optional<Image> decodeWithStb(std::string_view bytes, Problem& problem) {
+std::optional<Image> decodeWithStb(std::string_view bytes, ImageProblem& problem) {
     const PixelType type = isHdr(bytes) ? PixelType::f32 : PixelType::u8;
     int width = 0;
     int height = 0;
@@ -160,7 +135,7 @@ std::optional<Image> decodeWithStb(std::string_view bytes, Problem& problem) {
     }
     // Four channels, since a decoder may need a whole RGBA copy on its way.
     const std::uint64_t pixelSize = type == PixelType::f32 ? 16 : 4;
-    if (!sizeIsSane(width, height, pixelSize, bytes.size(), problem)) return std::nullopt;
+    if (!imageSizeIsSane(width, height, pixelSize, bytes.size(), problem)) return std::nullopt;
 
     Reader reader{bytes, type == PixelType::f32};
     void* const decoded =
@@ -179,7 +154,33 @@ std::optional<Image> decodeWithStb(std::string_view bytes, Problem& problem) {
     return fromTopDown(pixels, width, height, channels, type);
 }
 
+std::optional<Image> decode(std::string_view bytes, ImageProblem& problem) {
+    if (isRaw(bytes)) return decodeRaw(bytes, problem);
+    if (isJpeg(bytes)) return decodeJpeg(bytes, problem);
+    return decodeWithStb(bytes, problem);
+}
+
 } // namespace
+
+bool imageSizeIsSane(int width, int height, std::uint64_t pixelSize, std::size_t fileSize,
+                     ImageProblem& problem) {
+    // A header that ends within its numbers gives 0, and a Radiance header may have negative ones.
+    if (width < 1 || height < 1) {
+        problem = {"the image has no pixels", {}};
+        return false;
+    }
+    const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    if (pixels > kLargestImage / pixelSize) {
+        problem = {size + " pixels are too many", "an image of at most 1 GiB in memory"};
+        return false;
+    }
+    if (pixels / kMostPixelsPerByte > fileSize) {
+        problem = {"the file is too short for its " + size + " pixels", {}};
+        return false;
+    }
+    return true;
+}
 
 float Image::value(int x, int y, int channel) const {
     assert(x >= 0 && x < width && y >= 0 && y < height && channel >= 0 && channel < channels);
@@ -199,9 +200,8 @@ Image makeImage(int width, int height, int channels, PixelType type) {
 
 std::optional<Image> decodeImage(std::string_view bytes, std::string_view name,
                                  Diagnostics& diagnostics, const Place& place) {
-    Problem problem;
-    std::optional<Image> image =
-        isRaw(bytes) ? decodeRaw(bytes, problem) : decodeWithStb(bytes, problem);
+    ImageProblem problem;
+    std::optional<Image> image = decode(bytes, problem);
     if (!image)
         diagnostics.error("image-damaged", place,
                           "can't read '" + std::string(name) + "': " + problem.message,

@@ -8,6 +8,8 @@
 #define STBI_FREE(pointer) std::free(pointer)
 #define STBI_MAX_DIMENSIONS (1 << 20)
 #define STBI_NO_STDIO
+// libjpeg reads these: stb_image of 2022 writes past its tables for hostile ones.
+#define STBI_NO_JPEG
 #define STBI_NO_GIF
 #define STBI_NO_PIC
 #define STBI_NO_PNM
