@@ -9,9 +9,12 @@ namespace {
 
 const char* name(Severity severity) {
     switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::error: return "error";
+    case Severity::note:
+        return "note";
+    case Severity::warning:
+        return "warning";
+    case Severity::error:
+        return "error";
     }
     return "error";
 }
@@ -19,20 +22,38 @@ const char* name(Severity severity) {
 // Shows at most this much of a source line around the caret.
 constexpr std::size_t kShownWidth = 160;
 
+bool continuesCharacter(char c) { // of UTF-8
+    return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+}
+
+// What a terminal would act upon is not shown.
+char shown(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && c != '\t') || byte == 0x7f ? ' ' : c;
+}
+
 std::string sourceLine(const Place& place) {
     const LineColumn at = place.position();
-    std::string line(place.file->line(at.line));
-    std::size_t column = static_cast<std::size_t>(at.column) - 1;
+    const std::string_view line = place.file->line(at.line);
+    const std::size_t column = std::min(static_cast<std::size_t>(at.column) - 1, line.size());
     std::size_t start = 0;
+    std::size_t end = line.size();
     if (line.size() > kShownWidth) {
         start = column > kShownWidth / 2 ? column - kShownWidth / 2 : 0;
-        line = line.substr(start, kShownWidth);
+        end = std::min(line.size(), start + kShownWidth);
+        while (start < column && continuesCharacter(line[start]))
+            ++start;
+        while (end < line.size() && end > column && continuesCharacter(line[end]))
+            --end;
     }
-    // Tabs are kept in front of the caret so that it stands under its character.
-    std::string caret;
-    for (std::size_t i = 0; i < column - start; ++i)
-        caret += i < line.size() && line[i] == '\t' ? '\t' : ' ';
-    return "    " + line + "\n    " + caret + "^\n";
+    std::string text, caret;
+    for (std::size_t i = start; i < end; ++i)
+        text += shown(line[i]);
+    // The caret stands under its character: tabs are kept, and a character of several bytes is one.
+    for (std::size_t i = start; i < column; ++i) {
+        if (!continuesCharacter(line[i])) caret += line[i] == '\t' ? '\t' : ' ';
+    }
+    return "    " + text + "\n    " + caret + "^\n";
 }
 
 std::string indented(const std::string& text) {
@@ -44,6 +65,12 @@ std::string indented(const std::string& text) {
     while (!result.empty() && (result.back() == ' ' || result.back() == '\n'))
         result.pop_back();
     return result + '\n';
+}
+
+std::size_t hash(const Diagnostic& d) {
+    const std::hash<std::string> text;
+    const std::size_t place = std::hash<const void*>()(d.place.file.get()) ^ (d.place.offset * 31);
+    return text(d.code) ^ (text(d.message) * 3) ^ (place * 7);
 }
 
 bool same(const Diagnostic& a, const Diagnostic& b) {
@@ -69,8 +96,11 @@ void Diagnostics::report(Diagnostic diagnostic) {
     Listener listener;
     {
         std::lock_guard lock(mutex_);
-        const auto equal = [&](const Diagnostic& d) { return same(d, diagnostic); };
-        if (std::any_of(list_.begin(), list_.end(), equal)) return;
+        const std::size_t key = hash(diagnostic);
+        const auto [first, last] = indexByHash_.equal_range(key);
+        const auto equal = [&](const auto& item) { return same(list_[item.second], diagnostic); };
+        if (std::any_of(first, last, equal)) return;
+        indexByHash_.emplace(key, list_.size());
         if (diagnostic.severity == Severity::error) ++errors_;
         if (diagnostic.severity == Severity::warning) ++warnings_;
         list_.push_back(diagnostic);
@@ -114,6 +144,7 @@ std::vector<Diagnostic> Diagnostics::all() const {
 void Diagnostics::clear() {
     std::lock_guard lock(mutex_);
     list_.clear();
+    indexByHash_.clear();
     errors_ = warnings_ = 0;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace terrane {
@@ -51,6 +52,7 @@ public:
 private:
     mutable std::mutex mutex_;
     std::vector<Diagnostic> list_;
+    std::unordered_multimap<std::size_t, std::size_t> indexByHash_; ///< of code, place, message
     std::size_t errors_ = 0;
     std::size_t warnings_ = 0;
     Listener listener_;

@@ -28,8 +28,8 @@ bool isFile(const fs::path& path) {
     return fs::is_regular_file(path, error);
 }
 
-// Walks down the name's parts, taking an entry of equal name where there is one, else one whose
-// case differs.
+// Walks down the name's parts, taking an entry of equal name where there is one, else the first (in
+// the order of their names) whose case differs.
 std::optional<fs::path> findIgnoringCase(fs::path folder, const fs::path& name) {
     for (const fs::path& part : name) {
         std::error_code error;
@@ -37,14 +37,13 @@ std::optional<fs::path> findIgnoringCase(fs::path folder, const fs::path& name) 
             folder /= part;
             continue;
         }
-        bool found = false;
+        fs::path found;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
             if (!equalIgnoringCase(entry.path().filename().string(), part.string())) continue;
-            folder = entry.path();
-            found = true;
-            break;
+            if (found.empty() || entry.path() < found) found = entry.path();
         }
-        if (!found) return std::nullopt;
+        if (found.empty()) return std::nullopt;
+        folder = found;
     }
     return isFile(folder) ? std::optional(folder) : std::nullopt;
 }
@@ -140,16 +139,23 @@ bool SearchPath::leavesFolders(std::string_view name) {
 }
 
 std::optional<SearchPath::Found> SearchPath::find(std::string_view name) const {
+    const std::vector<Found> all = findAll(name);
+    return all.empty() ? std::nullopt : std::optional(all.front());
+}
+
+std::vector<SearchPath::Found> SearchPath::findAll(std::string_view name) const {
+    std::vector<Found> all;
     if (name.empty() || leavesFolders(name) || name.find('\0') != std::string_view::npos)
-        return std::nullopt;
+        return all;
     const fs::path relative = withSlashes(name);
     for (const fs::path& folder : folders_) {
-        if (isFile(folder / relative)) return Found{folder / relative, false};
+        if (isFile(folder / relative)) all.push_back({folder / relative, false});
     }
+    if (!all.empty()) return all;
     for (const fs::path& folder : folders_) {
-        if (auto path = findIgnoringCase(folder, relative)) return Found{*path, true};
+        if (auto path = findIgnoringCase(folder, relative)) all.push_back({*path, true});
     }
-    return std::nullopt;
+    return all;
 }
 
 std::vector<std::string> SearchPath::namesNear(std::string_view name) const {

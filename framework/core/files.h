@@ -41,6 +41,8 @@ public:
     /// The first folder that has a regular file of this name ('\' counts as '/'); failing that, one
     /// whose case differs. Names that leave the folders are never found.
     std::optional<Found> find(std::string_view name) const;
+    /// The same, of every folder that has one, in order.
+    std::vector<Found> findAll(std::string_view name) const;
 
     /// Files in the folders whose names start with the name's folder part: candidates for "did you
     /// mean".

@@ -8,21 +8,21 @@ namespace terrane {
 SourceFile::SourceFile(std::string path, std::string text)
     : path_(std::move(path))
     , text_(std::move(text))
-    , lineStarts_{0} {
+    , lineStarts_{text_.starts_with("\xef\xbb\xbf") ? 3u : 0u} {
     for (std::size_t i = 0; i < text_.size(); ++i) {
         if (text_[i] == '\n') lineStarts_.push_back(i + 1);
     }
 }
 
 LineColumn SourceFile::position(std::size_t offset) const {
-    offset = std::min(offset, text_.size());
+    offset = std::clamp(offset, lineStarts_.front(), text_.size());
     const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
     const auto line = static_cast<int>(next - lineStarts_.begin());
     return {line, static_cast<int>(offset - lineStarts_[line - 1]) + 1};
 }
 
 std::size_t SourceFile::offset(LineColumn position) const {
-    if (position.line < 1) return 0;
+    if (position.line < 1) return lineStarts_.front();
     if (position.line > static_cast<int>(lineStarts_.size())) return text_.size();
     const std::size_t start = lineStarts_[position.line - 1];
     const std::size_t column = position.column > 0 ? position.column - 1 : 0;
@@ -32,8 +32,8 @@ std::size_t SourceFile::offset(LineColumn position) const {
 std::string_view SourceFile::line(int number) const {
     if (number < 1 || number > static_cast<int>(lineStarts_.size())) return {};
     const std::size_t start = lineStarts_[number - 1];
-    std::size_t end = text_.find('\n', start);
-    if (end == std::string::npos) end = text_.size();
+    const bool last = number == static_cast<int>(lineStarts_.size());
+    std::size_t end = last ? text_.size() : lineStarts_[number] - 1;
     if (end > start && text_[end - 1] == '\r') --end;
     return std::string_view(text_).substr(start, end - start);
 }

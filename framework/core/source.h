@@ -15,7 +15,8 @@ struct LineColumn {
     int column = 0;
 };
 
-/// The text of a file that diagnostics point into. Immutable, so any thread may read it.
+/// The text of a file that diagnostics point into. Immutable, so any thread may read it. A byte
+/// order mark at its start belongs to no line, as editors see it.
 class SourceFile {
 public:
     /// @param path as the author would type it, relative to the working directory

@@ -9,25 +9,37 @@ namespace terrane {
 
 namespace {
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
 
-// Optimal string alignment distance: insertions, deletions, substitutions, neighbours swapped.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i)
-        d[i][0] = i;
+// Optimal string alignment distance (insertions, deletions, substitutions, neighbours swapped), or
+// limit + 1 when it is more than the limit. Only the band around the diagonal that can stay within
+// the limit is computed, since broken archives ask for thousands of names.
+std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit) {
+    const std::size_t tooFar = limit + 1;
+    std::vector<std::size_t> older(b.size() + 1), previous(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j)
-        d[0][j] = j;
+        previous[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
-        for (std::size_t j = 1; j <= b.size(); ++j) {
+        const std::size_t first = i > limit ? i - limit : 1;
+        const std::size_t last = std::min(b.size(), i + limit);
+        row.assign(b.size() + 1, tooFar);
+        if (i <= limit) row[0] = i;
+        std::size_t least = row[0];
+        for (std::size_t j = first; j <= last; ++j) {
             const std::size_t cost = lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1;
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + cost});
+            row[j] = std::min({previous[j] + 1, row[j - 1] + 1, previous[j - 1] + cost});
             const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
                                  lower(a[i - 2]) == lower(b[j - 1]);
-            if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+            if (swapped) row[j] = std::min(row[j], older[j - 2] + 1);
+            least = std::min(least, row[j]);
         }
+        if (least > limit) return tooFar;
+        std::swap(older, previous);
+        std::swap(previous, row);
     }
-    return d[a.size()][b.size()];
+    return std::min(previous[b.size()], tooFar);
 }
 
 std::size_t skipBlanksAndPlus(std::string_view text) {
@@ -39,7 +51,8 @@ std::size_t skipBlanksAndPlus(std::string_view text) {
     return i;
 }
 
-template <class T> std::optional<ParsedNumber<T>> parseNumber(std::string_view text) {
+template <class T>
+std::optional<ParsedNumber<T>> parseNumber(std::string_view text) {
     const std::size_t start = skipBlanksAndPlus(text);
     ParsedNumber<T> result;
     const char* const first = text.data() + start;
@@ -74,11 +87,12 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& c
     for (const std::string& candidate : candidates) {
         if (candidate.size() > name.size() + limit || name.size() > candidate.size() + limit)
             continue;
-        const std::size_t distance = editDistance(name, candidate);
+        const std::size_t distance = editDistance(name, candidate, best - 1);
         if (distance < best) {
             best = distance;
             nearest = candidate;
         }
+        if (best == 0) break;
     }
     return nearest;
 }
@@ -92,7 +106,25 @@ std::string listOfNames(const std::vector<std::string>& names) {
     return text;
 }
 
-std::optional<ParsedNumber<int>> parseInt(std::string_view text) { return parseNumber<int>(text); }
+std::string inQuotes(std::string_view text) {
+    // More than any sensible value has, and less than a terminal minds.
+    constexpr std::size_t kShown = 120;
+    std::string result = "'";
+    for (const char c : text.substr(0, kShown)) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += byte < 0x20 || byte == 0x7f ? ' ' : c;
+    }
+    if (text.size() <= kShown) return result + "'";
+    // A character of several bytes is not cut in two.
+    while ((static_cast<unsigned char>(result.back()) & 0xc0) == 0x80)
+        result.pop_back();
+    if (static_cast<unsigned char>(result.back()) >= 0xc0) result.pop_back();
+    return result + "...'";
+}
+
+std::optional<ParsedNumber<int>> parseInt(std::string_view text) {
+    return parseNumber<int>(text);
+}
 
 std::optional<ParsedNumber<double>> parseReal(std::string_view text) {
     return parseNumber<double>(text);

@@ -18,6 +18,10 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& c
 /// "'a', 'b' or 'c'".
 std::string listOfNames(const std::vector<std::string>& names);
 
+/// What an author wrote, as messages show it: in single quotes, on one line, without control
+/// characters, and shortened when it is very long.
+std::string inQuotes(std::string_view text);
+
 /// A number read from the start of a text, whatever the locale.
 template <class T>
 struct ParsedNumber {

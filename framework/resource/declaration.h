@@ -59,6 +59,8 @@ struct AttributeDeclaration {
     std::function<bool(const AttributeText&, ElementDescription&, Diagnostics&)> read;
     /// The value as it would be written.
     std::function<std::string(const ElementDescription&)> print;
+    /// Places the value of an attribute that is not written.
+    std::function<void(ElementDescription&, const Place&)> locate;
     /// Appends the references that the value holds.
     std::function<void(ElementDescription&, std::vector<RefBase*>&)> references;
 };
@@ -217,6 +219,9 @@ private:
         };
         a.print = [member, context](const ElementDescription& e) {
             return Traits::print(static_cast<const D&>(e).*member, context);
+        };
+        a.locate = [member](ElementDescription& e, const Place& place) {
+            detail::locate(static_cast<D&>(e).*member, place);
         };
         a.references = [member](ElementDescription& e, std::vector<RefBase*>& references) {
             Traits::collect(static_cast<D&>(e).*member, references);

@@ -11,10 +11,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool endsWithAny(const std::string& name, std::initializer_list<const char*> endings) {
-    return std::any_of(endings.begin(), endings.end(), [&](const char* ending) {
-        return name.size() > 4 && name.ends_with(ending);
-    });
+bool isImage(const std::string& name) {
+    const auto ends = [&](const char* ending) { return name.ends_with(ending); };
+    return name.size() > 4 && (ends(".jpg") || ends(".png") || ends(".bmp") || ends(".tga"));
 }
 
 std::string escaped(std::string_view text) {
@@ -37,8 +36,9 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-// "renderbuffer-<size>-<internalformat>[-<anything>]"
+// "renderbuffer-<size>-<internalformat>[-<anything>]"; an empty text for any other name.
 std::string renderbufferXml(const std::string& name) {
+    if (!name.starts_with("renderbuffer")) return {};
     const auto pieces = split(name, '-');
     if (pieces.size() < 3) return {};
     const std::string size = escaped(pieces[1]);
@@ -50,6 +50,16 @@ std::string imageXml(const std::string& name) {
     return "<texture2D source=\"" + escaped(name) +
            "\" internalformat=\"RGBA8\" min=\"LINEAR_MIPMAP_LINEAR\" mag=\"LINEAR\" "
            "wraps=\"REPEAT\" wrapt=\"REPEAT\"/>";
+}
+
+// The texture or mesh that a name stands for by itself, whatever archives say; an empty text for
+// names that are looked up.
+std::string fixedXml(const std::string& name) {
+    if (const std::string xml = renderbufferXml(name); !xml.empty()) return xml;
+    if (isImage(name)) return imageXml(name);
+    const bool program = name.find(';') != std::string::npos;
+    if (!program && name.ends_with(".mesh")) return "<mesh source=\"" + escaped(name) + "\"/>";
+    return {};
 }
 
 // Every piece needs its ';': what follows the last one is dropped.
@@ -69,93 +79,93 @@ Library::Library(SearchPath searchPath, Diagnostics& diagnostics)
 
 bool Library::addArchive(const fs::path& file) {
     const auto text = source(file);
-    if (!text) {
-        diagnostics_.error("file-missing", {}, "can't read the archive '" + shownPath(file) + "'");
-        return false;
-    }
-    const auto document = XmlDocument::parse(text, diagnostics_);
+    if (text) return addArchive(file, text);
+    diagnostics_.error("file-missing", {}, "can't read the archive " + inQuotes(shownPath(file)));
+    return false;
+}
+
+bool Library::addArchive(const fs::path& file, std::shared_ptr<const SourceFile> text) {
+    const auto document = XmlDocument::parse(std::move(text), diagnostics_);
     if (!document) return false;
     archives_.push_back(file);
-    for (const XmlElement& entry : document->root().children())
-        entries_.push_back(entry);
-    warnDuplicates();
+    for (const XmlElement& element : document->root().children())
+        addEntry(element);
     return true;
 }
 
-void Library::warnDuplicates() const {
-    std::map<std::string, Place> seen;
-    for (const XmlElement& entry : entries_) {
-        const std::string name = entry.attribute("name");
-        if (name.empty()) continue;
-        const auto [first, isNew] = seen.emplace(name, entry.place());
-        if (isNew) continue;
-        diagnostics_.warning("duplicate-name", entry.place(),
-                             "an entry named '" + name + "' stands at " + first->second.toString() +
-                                 " already; this one is never used",
+void Library::addEntry(const XmlElement& element) {
+    entries_.push_back(element);
+    const std::string name = element.attribute("name");
+    if (name.empty()) return;
+    if (!fixedXml(name).empty()) {
+        diagnostics_.warning("reserved-name", element.place(),
+                             "the name " + inQuotes(name) +
+                                 " always stands for the file or buffer itself; this entry is "
+                                 "never used",
                              "another name");
+        return;
     }
+    const auto [known, isNew] =
+        entryByName_.insert({name, {entries_.size() - 1, archives_.size() - 1}});
+    if (isNew) {
+        names_.push_back(name);
+        return;
+    }
+    const Place first = entries_[known->second.element].place();
+    diagnostics_.warning("duplicate-name", element.place(),
+                         "an entry named " + inQuotes(name) + " stands at " + first.toString() +
+                             " already; this one is never used",
+                         "another name");
 }
 
 std::optional<FoundElement> Library::find(const std::string& name) {
-    if (name.starts_with("renderbuffer")) {
-        const std::string xml = renderbufferXml(name);
-        if (!xml.empty()) return synthesise(name, xml);
-    }
-    if (endsWithAny(name, {".jpg", ".png", ".bmp", ".tga"}))
-        return synthesise(name, imageXml(name));
-    if (name.ends_with(".mesh") && name.size() > 5)
-        return synthesise(name, "<mesh source=\"" + escaped(name) + "\"/>");
+    if (name.empty()) return std::nullopt;
+    if (const std::string xml = fixedXml(name); !xml.empty()) return synthesise(name, xml);
     if (auto entry = findEntry(name)) return entry;
     if (auto file = findXmlFile(name)) return file;
     if (name.find(';') != std::string::npos) return synthesise(name, programXml(name));
     return std::nullopt;
 }
 
-std::optional<FoundElement> Library::findEntry(const std::string& name) {
-    for (const XmlElement& entry : entries_) {
-        if (entry.attribute("name") == name)
-            return FoundElement{entry, entry.place().file->path(), false};
+std::optional<FoundElement> Library::findEntry(const std::string& name) const {
+    const auto found = entryByName_.find(name);
+    if (found == entryByName_.end()) return std::nullopt;
+    return FoundElement{entries_[found->second.element], archives_[found->second.archive]};
+}
+
+// A folder whose file is damaged is passed over.
+std::optional<FoundElement> Library::findXmlFile(const std::string& name) {
+    for (const SearchPath::Found& found : searchPath_.findAll(name + ".xml")) {
+        if (const auto document = parsed(found.path))
+            return FoundElement{document->root(), found.path, false, found.caseDiffers};
+        damaged_.insert(name);
     }
     return std::nullopt;
 }
 
-std::optional<FoundElement> Library::findXmlFile(const std::string& name) {
-    const auto found = searchPath_.find(name + ".xml");
-    if (!found) return std::nullopt;
-    auto& document = documents_[found->path];
-    if (!document) {
-        const auto text = source(found->path);
-        if (text) document = XmlDocument::parse(text, diagnostics_);
-        if (!document) return std::nullopt;
-        if (found->caseDiffers) {
-            diagnostics_.warning("case-differs", document->root().place(),
-                                 "'" + name + ".xml' is found only as '" +
-                                     found->path.filename().string() + "'");
-        }
+std::shared_ptr<const XmlDocument> Library::parsed(const fs::path& path) {
+    const auto [document, isNew] = documents_.try_emplace(path);
+    if (!isNew) return document->second;
+    const auto text = source(path);
+    if (!text) {
+        diagnostics_.error("file-unreadable", {}, "can't read " + inQuotes(shownPath(path)));
+        return nullptr;
     }
-    return FoundElement{document->root(), found->path, false};
+    return document->second = XmlDocument::parse(text, diagnostics_);
 }
 
 std::optional<FoundElement> Library::synthesise(const std::string& name, const std::string& xml) {
-    const auto text = std::make_shared<SourceFile>("name '" + name + "'", xml);
+    const auto text = std::make_shared<SourceFile>("name " + inQuotes(name), xml);
     const auto document = XmlDocument::parse(text, diagnostics_);
     if (!document) return std::nullopt;
     return FoundElement{document->root(), {}, true};
 }
 
-std::vector<std::string> Library::names() const {
-    std::vector<std::string> names;
-    for (const XmlElement& entry : entries_) {
-        const std::string name = entry.attribute("name");
-        if (!name.empty()) names.push_back(name);
-    }
-    return names;
-}
-
 std::optional<fs::path> Library::findFile(const std::string& name, const Place& place,
                                           Diagnostics& diagnostics) const {
     if (SearchPath::leavesFolders(name)) {
-        diagnostics.error("name-leaves-folders", place, "'" + name + "' leaves the search folders",
+        diagnostics.error("name-leaves-folders", place,
+                          inQuotes(name) + " leaves the search folders",
                           "a name relative to the archive's folder or a --path, without '..'");
         return std::nullopt;
     }
@@ -163,15 +173,15 @@ std::optional<fs::path> Library::findFile(const std::string& name, const Place& 
     if (!found) {
         diagnostics.report({.code = "file-missing",
                             .place = place,
-                            .message = "there is no file '" + name + "'",
+                            .message = "there is no file " + inQuotes(name),
                             .expected = "a file in the archive's folder or in a --path",
                             .suggestion = nearestName(name, searchPath_.namesNear(name))});
         return std::nullopt;
     }
     if (found->caseDiffers) {
         diagnostics.warning("case-differs", place,
-                            "'" + name + "' is found only as '" + found->path.filename().string() +
-                                "'",
+                            inQuotes(name) + " is found only as " +
+                                inQuotes(found->path.filename().string()),
                             "the same case, which other systems need");
     }
     return found->path;
@@ -194,7 +204,9 @@ bool isArchive(const fs::path& file) {
     Diagnostics ignored;
     const auto source = std::make_shared<SourceFile>(file.string(), *text);
     const auto document = XmlDocument::parse(source, ignored);
-    return document && document->root().tag() == "archive";
+    // A damaged archive is still the one that was meant; opening it tells what is wrong.
+    if (!document) return text->find("<archive") != std::string::npos;
+    return document->root().tag() == "archive";
 }
 
 std::vector<fs::path> archivesIn(const fs::path& folder) {
@@ -213,7 +225,7 @@ std::vector<fs::path> archivesIn(const fs::path& folder) {
 std::optional<fs::path> resolveArchive(const fs::path& path, Diagnostics& diagnostics) {
     std::error_code error;
     if (!fs::exists(path, error)) {
-        diagnostics.error("no-archive", {}, "there is no '" + path.string() + "'",
+        diagnostics.error("no-archive", {}, "there is no " + inQuotes(path.string()),
                           "an .xml file or the folder of an archive");
         return std::nullopt;
     }
@@ -230,7 +242,7 @@ std::optional<fs::path> resolveArchive(const fs::path& path, Diagnostics& diagno
     for (const fs::path& candidate : candidates)
         names.push_back(shownPath(candidate));
     diagnostics.error("no-archive", {},
-                      "the folder '" + path.string() + "' has " +
+                      "the folder " + inQuotes(path.string()) + " has " +
                           (names.empty() ? "no archive" : "several archives"),
                       names.empty() ? "archive.xml in it" : "one of " + listOfNames(names));
     return std::nullopt;
@@ -251,9 +263,10 @@ SearchPath archiveSearchPath(const fs::path& archive, const std::vector<fs::path
     for (const char* name : {"textures", "shaders", "meshes", "methods", "ui", "data"}) {
         if (fs::is_directory(above / name, error)) search.add(above / name);
     }
-    const fs::path home = homeFolder();
-    for (const char* name : {"shaders", "meshes", "methods", "textures"})
-        search.add(home / "resources" / name);
+    const fs::path resources = homeFolder() / "resources";
+    for (const char* name : {"shaders", "meshes", "methods", "textures", "fonts"}) {
+        if (fs::is_directory(resources / name, error)) search.add(resources / name);
+    }
     return search;
 }
 

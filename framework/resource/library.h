@@ -9,7 +9,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace terrane {
@@ -19,6 +21,7 @@ struct FoundElement {
     XmlElement element;
     std::filesystem::path file; ///< empty when it was made from the name alone
     bool synthesised = false;   ///< made from the name: `grass.png`, `a;b;`, `grid.mesh`
+    bool caseDiffers = false;   ///< the file was found only by ignoring the case of its name
 };
 
 /// Turns names into XML elements and data files: the archives in order, then the search folders.
@@ -30,15 +33,20 @@ public:
     /// Parses an archive: every direct child of its root with a `name` becomes an entry. False with
     /// diagnostics ("file-missing", "xml-syntax") when it can't be read.
     bool addArchive(const std::filesystem::path& file);
+    /// The same, of a text that was read already.
+    bool addArchive(const std::filesystem::path& file, std::shared_ptr<const SourceFile> text);
 
     /// The entries of all archives in document order, unnamed ones included.
     const std::vector<XmlElement>& entries() const { return entries_; }
 
     /// The element for a name, or nothing (without a diagnostic) when there is none.
     std::optional<FoundElement> find(const std::string& name);
+    /// True when there is a file for a name that was not found, but one that is no XML. That has
+    /// been reported.
+    bool isDamaged(const std::string& name) const { return damaged_.contains(name); }
 
     /// Names of archive entries, for suggestions.
-    std::vector<std::string> names() const;
+    const std::vector<std::string>& names() const { return names_; }
 
     const SearchPath& searchPath() const { return searchPath_; }
     Diagnostics& diagnostics() const { return diagnostics_; }
@@ -53,17 +61,27 @@ public:
     std::shared_ptr<const SourceFile> source(const std::filesystem::path& path);
 
 private:
-    std::optional<FoundElement> findEntry(const std::string& name);
+    struct Entry {
+        std::size_t element; // in entries_
+        std::size_t archive; // in archives_
+    };
+
+    void addEntry(const XmlElement& element);
+    std::optional<FoundElement> findEntry(const std::string& name) const;
     std::optional<FoundElement> findXmlFile(const std::string& name);
+    std::shared_ptr<const XmlDocument> parsed(const std::filesystem::path& path);
     std::optional<FoundElement> synthesise(const std::string& name, const std::string& xml);
-    void warnDuplicates() const;
 
     SearchPath searchPath_;
     Diagnostics& diagnostics_;
     std::vector<XmlElement> entries_;
+    std::vector<std::string> names_;
+    std::unordered_map<std::string, Entry> entryByName_; ///< the first of each name
     std::vector<std::filesystem::path> archives_;
-    std::map<std::filesystem::path, std::shared_ptr<const XmlDocument>> documents_;
+    std::map<std::filesystem::path, std::shared_ptr<const XmlDocument>>
+        documents_; ///< null: damaged
     std::map<std::filesystem::path, std::shared_ptr<const SourceFile>> sources_;
+    std::set<std::string> damaged_;
 };
 
 /// The archive that a path given by a user stands for: an .xml file itself; of a folder,

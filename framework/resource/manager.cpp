@@ -4,6 +4,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <set>
 
 namespace terrane {
 
@@ -14,28 +15,38 @@ constexpr std::size_t kMaxChain = 500;
 
 std::string describe(const ResourceEntry& entry) {
     const std::string tag = entry.declaration ? entry.declaration->tag : "resource";
-    return tag + " '" + entry.name + "'";
+    return tag + " " + inQuotes(entry.name);
 }
 
-// A description made from a name alone has no file of its own: it is blamed on whoever named it.
 // The modules of a program "a;b;" are blamed on their pieces of the name.
-void blame(ElementDescription& description, const ElementDeclaration& declaration,
-           const std::string& name, const Place& place) {
-    description.place = place;
-    const bool spelled = place.file->text().compare(place.offset, name.size(), name) == 0;
+void blamePieces(ElementDescription& description, const ElementDeclaration& declaration,
+                 const std::string& name, const Place& place) {
+    const std::string& text = place.file->text();
+    const bool spelled =
+        std::string_view(text).substr(std::min(place.offset, text.size())).starts_with(name);
+    if (!spelled) return;
     std::size_t offset = 0;
-    for (const bool onDemand : {false, true}) {
-        for (const auto& [attribute, ref] : references(declaration, description, onDemand)) {
-            ref->place = {place.file, place.offset + (spelled ? offset : 0)};
-            offset += ref->name.size() + 1;
-        }
+    for (const auto& [attribute, ref] : references(declaration, description, false)) {
+        ref->place.offset = place.offset + offset;
+        offset += ref->name.size() + 1;
     }
-    for (const Child& child : description.children)
-        child.description->place = place;
+}
+
+// Lets go of what was built for a resource that could not be.
+void dropChildren(ElementDescription& description) {
+    for (Child& child : description.children) {
+        child.resource.reset();
+        dropChildren(*child.description);
+    }
 }
 
 bool isReady(const RefBase& ref) {
     return ref.entry() && ref.entry()->state == ResourceEntry::State::ready;
+}
+
+bool dependsOn(const ResourceEntry& dependent, const ResourceEntry& entry) {
+    const auto& list = dependent.dependencies;
+    return std::find(list.begin(), list.end(), &entry) != list.end();
 }
 
 // Whether an element can be built: what it names is there, but for what is not built yet and can be
@@ -46,7 +57,8 @@ bool canBuild(const ElementDeclaration& declaration, ElementDescription& descrip
         std::vector<RefBase*> list;
         a.references(description, list);
         for (const RefBase* ref : list) {
-            const bool planned = ref->entry() && ref->entry()->state == ResourceEntry::State::planned;
+            const bool planned =
+                ref->entry() && ref->entry()->state == ResourceEntry::State::planned;
             if (ref->given() && !isReady(*ref) && !(planned && !a.required)) return false;
         }
     }
@@ -79,24 +91,54 @@ ResourceEntry* ResourceManager::load(const std::string& name, const Place& place
         return &entry;
     }
     if (loading_.size() > kMaxChain) {
-        diagnostics_.error("too-deep", place, "resources refer to one another too deeply");
+        diagnostics_.report({.code = "too-deep",
+                             .place = place,
+                             .message = "resources refer to one another too deeply",
+                             .expected = "at most " + std::to_string(kMaxChain) + " in a row"});
         return nullptr;
     }
-    const std::size_t before = diagnostics_.errors();
     const auto found = library_.find(name);
+    if (!found && library_.isDamaged(name)) {
+        // The damage has been told; whoever else names it fails silently.
+        ResourceEntry& entry = add(name);
+        entry.state = ResourceEntry::State::failed;
+        return &entry;
+    }
     if (!found) {
-        // A file that was found but can't be parsed has been told already.
-        if (diagnostics_.errors() == before) reportUnknown(name, place);
+        reportUnknown(name, place);
         return nullptr;
     }
-    ResourceEntry& entry = *entries_.emplace(name, std::make_unique<ResourceEntry>()).first->second;
-    entry.name = name;
+    ResourceEntry& entry = add(name);
     entry.state = ResourceEntry::State::loading;
     if (!found->file.empty()) entry.files.push_back(found->file);
     loading_.push_back({&entry, place});
+    warnName(name, *found, place);
     describeAndBuild(entry, *found, place);
     loading_.pop_back();
     return &entry;
+}
+
+ResourceEntry& ResourceManager::add(const std::string& name) {
+    ResourceEntry& entry = *entries_.emplace(name, std::make_unique<ResourceEntry>()).first->second;
+    entry.name = name;
+    return entry;
+}
+
+void ResourceManager::warnName(const std::string& name, const FoundElement& found,
+                               const Place& place) {
+    if (found.caseDiffers) {
+        diagnostics_.warning("case-differs", place ? place : found.element.place(),
+                             inQuotes(name + ".xml") + " is found only as " +
+                                 inQuotes(found.file.filename().string()),
+                             "the same case, which other systems need");
+    }
+    const std::size_t end = name.rfind(';');
+    if (found.synthesised && end != std::string::npos && end + 1 < name.size()) {
+        diagnostics_.warning("program-tail", place,
+                             inQuotes(name.substr(end + 1)) +
+                                 " has no ';' behind it and is ignored",
+                             inQuotes(name + ";"));
+    }
 }
 
 const ElementDeclaration* ResourceManager::declarationOf(const XmlElement& element) {
@@ -104,8 +146,8 @@ const ElementDeclaration* ResourceManager::declarationOf(const XmlElement& eleme
     if (const ElementDeclaration* declaration = registry_.find(tag)) return declaration;
     diagnostics_.report({.code = "unknown-element",
                          .place = element.place(),
-                         .message = "there is no resource type <" + tag + ">",
-                         .suggestion = nearestName(tag, registry_.tags()),
+                         .message = "there is no resource type " + inQuotes(tag),
+                         .suggestion = nearestName(tag, registry_.entryTags()),
                          .chain = chain()});
     return nullptr;
 }
@@ -117,10 +159,12 @@ void ResourceManager::describeAndBuild(ResourceEntry& entry, const FoundElement&
     if (!entry.declaration) return;
 
     Diagnostics local;
-    ParsedElement parsed = parseElement(found.element, *entry.declaration, registry_, local);
+    const bool blame = found.synthesised && place;
+    const XmlElement element = blame ? found.element.blamedOn(place) : found.element;
+    ParsedElement parsed = parseElement(element, *entry.declaration, registry_, local);
     entry.description = parsed.description;
-    if (found.synthesised && place)
-        blame(*entry.description, *entry.declaration, entry.name, place);
+    if (blame && entry.name.find(';') != std::string::npos)
+        blamePieces(*entry.description, *entry.declaration, entry.name, place);
     forward(local);
 
     // References are followed even from an invalid description, so that one run tells all.
@@ -140,17 +184,17 @@ void ResourceManager::describeAndBuild(ResourceEntry& entry, const FoundElement&
 // only costs that element: the rest is still built. References to what is not built yet are no
 // failure either.
 bool ResourceManager::loadReferences(ResourceEntry& entry, bool onDemand) {
-    std::vector<RefBase*> own;
+    std::vector<RefBase*> list;
     for (const AttributeDeclaration& a : entry.declaration->attributes) {
-        if (a.references) a.references(*entry.description, own);
+        if (a.references) a.references(*entry.description, list);
     }
+    const std::set<const RefBase*> own(list.begin(), list.end());
     bool complete = true;
     for (const auto& [attribute, ref] :
          references(*entry.declaration, *entry.description, onDemand)) {
         resolve(*ref, *attribute->refersTo, &entry);
         const bool planned = ref->entry() && ref->entry()->state == ResourceEntry::State::planned;
-        const bool nested = std::find(own.begin(), own.end(), ref) == own.end();
-        if (!isReady(*ref) && !planned && !nested) complete = false;
+        if (!isReady(*ref) && !planned && own.contains(ref)) complete = false;
     }
     return complete;
 }
@@ -162,8 +206,10 @@ void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
     if (entry.declaration->build)
         entry.instance = entry.declaration->build(*entry.description, context);
     entry.state = entry.instance ? ResourceEntry::State::ready : ResourceEntry::State::failed;
-    if (!entry.instance) return;
-    built_.push_back(&entry);
+    if (entry.instance)
+        built_.push_back(&entry);
+    else
+        dropChildren(*entry.description);
 }
 
 void ResourceManager::buildChildren(ElementDescription& description, BuildContext& context) {
@@ -178,7 +224,7 @@ void ResourceManager::resolve(const RefBase& ref, std::type_index interface,
                               ResourceEntry* dependent) {
     ResourceEntry* const entry = load(ref.name, ref.place);
     if (!entry) return;
-    if (dependent) {
+    if (dependent && !dependsOn(*dependent, *entry)) {
         dependent->dependencies.push_back(entry);
         entry->dependents.push_back(dependent);
     }
@@ -194,36 +240,64 @@ void ResourceManager::loadAll() {
     for (const XmlElement& element : library_.entries()) {
         const std::string name = element.attribute("name");
         if (registry_.findTopLevel(element.tag())) continue;
-        if (name.empty()) {
-            if (declarationOf(element)) {
-                diagnostics_.warning("unnamed-entry", element.place(),
-                                     "<" + element.tag() + "> without a name is never used",
-                                     "an attribute 'name'");
-            }
+        const auto found = library_.find(name);
+        if (!found || !(found->element == element)) {
+            checkUnused(element);
             continue;
         }
-        ResourceEntry* const entry = load(name, element.place());
+        ResourceEntry* const entry = load(name, {});
         if (entry && entry->description) loadReferences(*entry, true);
     }
 }
 
-void ResourceManager::reportUnknown(const std::string& name, const Place& place) {
-    std::vector<std::string> names = library_.names();
-    for (const std::string& file : library_.searchPath().namesNear(name)) {
-        if (file.ends_with(".xml")) names.push_back(file.substr(0, file.size() - 4));
+// An entry that no name leads to. Its mistakes are told all the same: often one is in its name.
+void ResourceManager::checkUnused(const XmlElement& element) {
+    const ElementDeclaration* const declaration = declarationOf(element);
+    if (!declaration) return;
+    if (element.attribute("name").empty()) {
+        diagnostics_.warning("unnamed-entry", element.place(),
+                             "<" + element.tag() + "> without a name is never used",
+                             "an attribute 'name'");
     }
-    diagnostics_.report({.code = "unknown-resource",
-                         .place = place,
-                         .message = "there is no resource '" + name + "'",
-                         .expected = "an entry of the archive, or a file '" + name + ".xml'",
-                         .suggestion = nearestName(name, names),
-                         .chain = chain()});
+    parseElement(element, *declaration, registry_, diagnostics_);
+}
+
+void ResourceManager::reportUnknown(const std::string& name, const Place& place) {
+    if (SearchPath::leavesFolders(name)) {
+        diagnostics_.report({.code = "name-leaves-folders",
+                             .place = place,
+                             .message = inQuotes(name) + " leaves the search folders",
+                             .expected = "a name without '..' that does not start with '/'",
+                             .chain = chain()});
+        return;
+    }
+    std::vector<std::string> files;
+    for (const std::string& file : library_.searchPath().namesNear(name)) {
+        if (file.ends_with(".xml")) files.push_back(file.substr(0, file.size() - 4));
+    }
+    std::string nearest = nearestName(name, library_.names());
+    if (nearest.empty()) nearest = nearestName(name, files);
+    const bool buffer = name.starts_with("renderbuffer");
+    diagnostics_.report(
+        {.code = "unknown-resource",
+         .place = place,
+         .message = "there is no resource " + inQuotes(name),
+         .expected = buffer ? "renderbuffer-<size>-<internal format>"
+                            : "an entry of the archive, or a file " + inQuotes(name + ".xml"),
+         .suggestion = std::move(nearest),
+         .chain = chain()});
 }
 
 void ResourceManager::reportCycle(const ResourceEntry& entry, const Place& place) {
+    std::string circle;
+    bool inside = false;
+    for (const Loading& loading : loading_) {
+        inside |= loading.entry == &entry;
+        if (inside) circle += loading.entry->name + " > ";
+    }
     diagnostics_.report({.code = "cycle",
                          .place = place,
-                         .message = describe(entry) + " needs itself",
+                         .message = describe(entry) + " needs itself: " + circle + entry.name,
                          .chain = chain()});
 }
 
@@ -231,9 +305,19 @@ void ResourceManager::reportMistyped(const RefBase& ref, const ResourceEntry& en
                                      std::type_index interface) {
     diagnostics_.report({.code = "mistyped-reference",
                          .place = ref.place,
-                         .message = "'" + ref.name + "' is a " + entry.declaration->tag,
+                         .message = inQuotes(ref.name) + " is a " + entry.declaration->tag,
                          .expected = registry_.describeInterface(interface),
+                         .suggestion = nearestName(ref.name, entriesOf(interface)),
                          .chain = chain()});
+}
+
+std::vector<std::string> ResourceManager::entriesOf(std::type_index interface) const {
+    std::vector<std::string> names;
+    for (const XmlElement& element : library_.entries()) {
+        const ElementDeclaration* const declaration = registry_.find(element.tag());
+        if (declaration && declaration->isA(interface)) names.push_back(element.attribute("name"));
+    }
+    return names;
 }
 
 std::vector<std::string> ResourceManager::chain() const {

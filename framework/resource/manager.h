@@ -60,12 +60,16 @@ private:
     /// Builds the resources nested in a description, depth first. One that can't be built is null:
     /// its parent does without it.
     void buildChildren(ElementDescription& description, BuildContext& context);
+    ResourceEntry& add(const std::string& name);
+    void warnName(const std::string& name, const FoundElement& found, const Place& place);
     void describeAndBuild(ResourceEntry& entry, const FoundElement& found, const Place& place);
+    void checkUnused(const XmlElement& element);
     bool loadReferences(ResourceEntry& entry, bool onDemand);
     void build(ResourceEntry& entry, Diagnostics& local);
     void reportUnknown(const std::string& name, const Place& place);
     void reportCycle(const ResourceEntry& entry, const Place& place);
     void reportMistyped(const RefBase& ref, const ResourceEntry& entry, std::type_index interface);
+    std::vector<std::string> entriesOf(std::type_index interface) const;
     std::vector<std::string> chain() const;
     void forward(const Diagnostics& local);
     const ElementDeclaration* declarationOf(const XmlElement& element);

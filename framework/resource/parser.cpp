@@ -4,6 +4,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <set>
 
 namespace terrane {
 
@@ -23,13 +24,16 @@ public:
         ParsedElement result{&declaration, declaration.makeDescription(), true};
         result.description->tag = element.tag();
         result.description->place = element.place();
+        result.description->name.place = result.description->id.place = element.place();
         result.valid &= readAttributes(element, declaration, keyed, *result.description);
         if (declaration.planned) {
             diagnostics_.warning("not-built-yet", element.place(),
                                  "<" + element.tag() + "> has no effect yet");
         }
-        if (!declaration.acceptsAnything)
+        if (!declaration.acceptsAnything) {
+            warnText(element);
             result.valid &= readChildren(element, declaration, *result.description, depth);
+        }
         if (result.valid && declaration.check) {
             const std::size_t before = diagnostics_.errors();
             declaration.check(*result.description, diagnostics_);
@@ -42,21 +46,25 @@ private:
     bool readAttributes(const XmlElement& element, const ElementDeclaration& declaration,
                         bool keyed, ElementDescription& description) {
         bool good = true;
-        std::vector<const AttributeDeclaration*> seen;
-        std::vector<std::string> names;
+        std::set<const AttributeDeclaration*> seen;
+        std::set<std::string> names;
         for (const XmlAttribute& xml : element.attributes()) {
-            if (std::find(names.begin(), names.end(), xml.name) != names.end()) {
+            if (!names.insert(xml.name).second) {
                 diagnostics_.error("duplicate-attribute", xml.namePlace,
-                                   "attribute '" + xml.name + "' is given twice", "it once");
+                                   "attribute " + inQuotes(xml.name) + " is given twice",
+                                   "it once");
                 good = false;
                 continue;
             }
-            names.push_back(xml.name);
-            const AttributeText text{xml.value, xml.namePlace, xml.valuePlace};
-            if (const AttributeDeclaration* a = declaration.attribute(xml.name)) {
-                if (a->planned) warnPlanned(*a, xml);
-                seen.push_back(a);
-                if (a->read) good &= a->read(text, description, diagnostics_);
+            const AttributeDeclaration* const a = declaration.attribute(xml.name);
+            if (a && !seen.insert(a).second) {
+                diagnostics_.error("duplicate-attribute", xml.namePlace,
+                                   inQuotes(xml.name) +
+                                       " is another name of an attribute given already",
+                                   "'" + a->name + "' once");
+                good = false;
+            } else if (a) {
+                good &= readDeclared(*a, xml, description);
             } else if (!readCommon(xml, declaration, keyed, description) &&
                        !declaration.acceptsAnything) {
                 unknownAttribute(xml, declaration, keyed, element.tag());
@@ -68,13 +76,29 @@ private:
             missingAttribute(element, "id");
             good = false;
         }
-        setPlaces(declaration, description, seen);
+        for (const AttributeDeclaration& a : declaration.attributes) {
+            if (a.locate && !seen.contains(&a)) a.locate(description, description.place);
+        }
         return good;
     }
 
-    void warnPlanned(const AttributeDeclaration& a, const XmlAttribute& xml) {
-        diagnostics_.warning("not-built-yet", xml.namePlace,
-                             "attribute '" + a.name + "' has no effect yet");
+    bool readDeclared(const AttributeDeclaration& a, const XmlAttribute& xml,
+                      ElementDescription& description) {
+        if (a.planned) {
+            diagnostics_.warning("not-built-yet", xml.namePlace,
+                                 "attribute '" + a.name + "' has no effect yet");
+        }
+        return !a.read ||
+               a.read({xml.value, xml.namePlace, xml.valuePlace}, description, diagnostics_);
+    }
+
+    // Text is ignored wherever it stands, but it is often what is left of a tag.
+    void warnText(const XmlElement& element) {
+        const Place place = element.textPlace();
+        if (!place) return;
+        diagnostics_.warning("text-ignored", place,
+                             "the text in <" + element.tag() + "> is ignored",
+                             "elements and comments");
     }
 
     static bool readCommon(const XmlAttribute& xml, const ElementDeclaration& declaration,
@@ -97,7 +121,7 @@ private:
         std::sort(names.begin(), names.end());
         diagnostics_.report({.code = "unknown-attribute",
                              .place = xml.namePlace,
-                             .message = "<" + tag + "> has no attribute '" + xml.name + "'",
+                             .message = "<" + tag + "> has no attribute " + inQuotes(xml.name),
                              .expected = names.empty() ? "no attribute" : listOfNames(names),
                              .suggestion = nearestName(xml.name, names)});
     }
@@ -108,26 +132,14 @@ private:
     }
 
     bool checkRequired(const XmlElement& element, const ElementDeclaration& declaration,
-                       const std::vector<const AttributeDeclaration*>& seen) {
+                       const std::set<const AttributeDeclaration*>& seen) {
         bool good = true;
         for (const AttributeDeclaration& a : declaration.attributes) {
-            if (!a.required || std::find(seen.begin(), seen.end(), &a) != seen.end()) continue;
+            if (!a.required || seen.contains(&a)) continue;
             missingAttribute(element, a.name);
             good = false;
         }
         return good;
-    }
-
-    // Defaults that refer to resources are blamed on the element.
-    static void setPlaces(const ElementDeclaration& declaration, ElementDescription& description,
-                          const std::vector<const AttributeDeclaration*>& seen) {
-        for (const AttributeDeclaration& a : declaration.attributes) {
-            if (!a.references || std::find(seen.begin(), seen.end(), &a) != seen.end()) continue;
-            std::vector<RefBase*> list;
-            a.references(description, list);
-            for (RefBase* ref : list)
-                ref->place = description.place;
-        }
     }
 
     bool readChildren(const XmlElement& element, const ElementDeclaration& declaration,

@@ -24,6 +24,13 @@ std::vector<std::string> Registry::tags() const {
     return names;
 }
 
+std::vector<std::string> Registry::entryTags() const {
+    std::vector<std::string> names = tags();
+    for (const ElementDeclaration* declaration : topLevel_)
+        names.push_back(declaration->tag);
+    return names;
+}
+
 std::vector<std::string> Registry::tagsOf(std::type_index interface) const {
     std::vector<std::string> names;
     for (const auto& [tag, declaration] : types_) {

@@ -58,6 +58,8 @@ public:
     const ElementDeclaration* find(std::string_view tag) const;
     const ElementDeclaration* findTopLevel(std::string_view tag) const;
     std::vector<std::string> tags() const;
+    /// Tags of what may stand directly below the root of an archive.
+    std::vector<std::string> entryTags() const;
     /// Tags of the types with an interface.
     std::vector<std::string> tagsOf(std::type_index interface) const;
     /// "producer", else "'a', 'b' or 'c'".

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <limits>
 
@@ -13,14 +14,29 @@ namespace terrane::detail {
 
 namespace {
 
-Place at(const Place& place, std::size_t offset) {
-    return {place.file, place.offset + offset};
+// Bytes that an entity of XML stands for; 0 when the text starts with none.
+std::size_t entityLength(std::string_view text, std::size_t& decoded) {
+    const std::size_t end = text.substr(0, 12).find(';');
+    if (text.empty() || text[0] != '&' || end == std::string_view::npos) return 0;
+    const std::string_view name = text.substr(1, end - 1);
+    decoded = 1;
+    if (name.starts_with('#')) {
+        const int base = name.starts_with("#x") ? 16 : 10;
+        const long code =
+            std::strtol(std::string(name.substr(base == 16 ? 2 : 1)).c_str(), nullptr, base);
+        decoded = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+        return end + 1;
+    }
+    const bool known =
+        name == "amp" || name == "lt" || name == "gt" || name == "quot" || name == "apos";
+    return known ? end + 1 : 0;
 }
 
 void wrongKind(const AttributeText& text, const AttributeDeclaration& a, std::string expected,
                Diagnostics& diagnostics) {
     diagnostics.error("wrong-kind", text.valuePlace,
-                      "'" + text.text + "' is no value of '" + a.name + "'", std::move(expected));
+                      inQuotes(text.text) + " is no value of '" + a.name + "'",
+                      std::move(expected));
 }
 
 // What follows a number is ignored, as archives of the original rely on, but told.
@@ -28,9 +44,10 @@ void checkRest(std::string_view piece, std::size_t length, const Place& place,
                const AttributeDeclaration& a, Diagnostics& diagnostics) {
     const std::string_view rest = piece.substr(length);
     if (isBlank(rest)) return;
-    diagnostics.warning("trailing-garbage", at(place, length),
-                        "'" + std::string(rest) + "' after the number of '" + a.name +
-                            "' is ignored",
+    ValueWalker walker(place);
+    walker.advance(length);
+    diagnostics.warning("trailing-garbage", walker.place(),
+                        inQuotes(rest) + " after the number of '" + a.name + "' is ignored",
                         "a number alone");
 }
 
@@ -38,6 +55,8 @@ std::string rangeText(const AttributeDeclaration& a) {
     const std::string unit = a.unit.empty() ? "" : " " + a.unit;
     const bool below = std::isfinite(a.minimum);
     const bool above = std::isfinite(a.maximum);
+    if (below && above && a.minimumExcluded)
+        return fmt::format("more than {} and at most {}{}", a.minimum, a.maximum, unit);
     if (below && above) return fmt::format("{} to {}{}", a.minimum, a.maximum, unit);
     if (below)
         return fmt::format("{} {}{}", a.minimumExcluded ? "more than" : "at least", a.minimum,
@@ -48,13 +67,10 @@ std::string rangeText(const AttributeDeclaration& a) {
 bool inRange(double value, std::string_view piece, const Place& place,
              const AttributeDeclaration& a, Diagnostics& diagnostics) {
     const bool low = a.minimumExcluded ? value <= a.minimum : value < a.minimum;
-    const bool noNumber =
-        std::isnan(value) && (std::isfinite(a.minimum) || std::isfinite(a.maximum));
-    if (!low && !noNumber && value <= a.maximum) return true;
-    if (!low && !noNumber && std::isnan(value)) return true;
+    const bool bounded = std::isfinite(a.minimum) || std::isfinite(a.maximum);
+    if (!low && !(value > a.maximum) && !(bounded && std::isnan(value))) return true;
     diagnostics.error("out-of-range", place,
-                      "'" + a.name + "' of " + std::string(piece) + " is out of range",
-                      rangeText(a));
+                      "'" + a.name + "' of " + inQuotes(piece) + " is out of range", rangeText(a));
     return false;
 }
 
@@ -77,13 +93,15 @@ bool readList(const AttributeText& text, const AttributeDeclaration& a, const ch
               Parse parse, std::vector<T>& values, Diagnostics& diagnostics) {
     values.clear();
     bool good = true;
-    std::size_t offset = 0;
+    ValueWalker walker(text.valuePlace);
     for (const std::string_view piece : split(text.text, ',')) {
-        const Place place = at(text.valuePlace, offset);
-        offset += piece.size() + 1;
+        const std::size_t blanks = std::min(piece.find_first_not_of(" \t\r\n"), piece.size());
+        walker.advance(blanks);
+        const Place place = walker.place();
+        walker.advance(piece.size() + 1 - blanks);
         if (piece.empty()) continue;
         T value{};
-        good &= readPiece(piece, place, text, a, expected, parse, value, diagnostics);
+        good &= readPiece(piece.substr(blanks), place, text, a, expected, parse, value, diagnostics);
         values.push_back(value);
     }
     return good;
@@ -91,12 +109,25 @@ bool readList(const AttributeText& text, const AttributeDeclaration& a, const ch
 
 } // namespace
 
+void ValueWalker::advance(std::size_t bytes) {
+    if (!place_.file) return;
+    const std::string_view text = place_.file->text();
+    for (std::size_t read = 0; read < bytes && place_.offset < text.size();) {
+        const std::string_view rest = text.substr(place_.offset);
+        std::size_t decoded = 1;
+        std::size_t written = entityLength(rest, decoded);
+        if (written == 0) written = rest.starts_with("\r\n") ? 2 : 1;
+        place_.offset += written;
+        read += decoded;
+    }
+}
+
 bool readBool(const AttributeText& text, const AttributeDeclaration& a, bool& value,
               Diagnostics& diagnostics) {
     value = a.trueUnlessFalse ? text.text != "false" : text.text == "true";
     if (text.text != "true" && text.text != "false") {
         diagnostics.warning("boolean-word", text.valuePlace,
-                            "'" + text.text + "' counts as " + (value ? "true" : "false"),
+                            inQuotes(text.text) + " counts as " + (value ? "true" : "false"),
                             "'true' or 'false'");
     }
     return true;
@@ -183,10 +214,10 @@ int readWord(const AttributeText& text, const AttributeDeclaration& a, Diagnosti
 bool readWords(const AttributeText& text, const AttributeDeclaration& a, std::vector<int>& indices,
                Diagnostics& diagnostics) {
     bool good = true;
-    std::size_t offset = 0;
+    ValueWalker walker(text.valuePlace);
     for (const std::string_view piece : split(text.text, ',')) {
-        const Place place = at(text.valuePlace, offset);
-        offset += piece.size() + 1;
+        const Place place = walker.place();
+        walker.advance(piece.size() + 1);
         const int index = readWord({std::string(piece), text.namePlace, place}, a, diagnostics);
         if (index >= 0) indices.push_back(index);
         good &= index >= 0;

@@ -49,6 +49,19 @@ namespace detail {
 
 struct NoContext {};
 
+/// Follows a value through the text it was read from, which is longer than the value where it holds
+/// entities or line breaks of two bytes.
+class ValueWalker {
+public:
+    explicit ValueWalker(Place start)
+        : place_(std::move(start)) {}
+    void advance(std::size_t bytes); ///< of the value
+    const Place& place() const { return place_; }
+
+private:
+    Place place_;
+};
+
 bool readBool(const AttributeText&, const AttributeDeclaration&, bool&, Diagnostics&);
 bool readInt(const AttributeText&, const AttributeDeclaration&, int&, Diagnostics&);
 bool readReal(const AttributeText&, const AttributeDeclaration&, double&, Diagnostics&);
@@ -86,6 +99,19 @@ template <class T>
 void mark(Attr<T>& attr, const AttributeText& text) {
     attr.place = text.valuePlace;
     attr.given = true;
+}
+
+template <class T>
+void locate(Attr<T>& attr, const Place& place) {
+    attr.place = place;
+}
+inline void locate(RefBase& ref, const Place& place) {
+    ref.place = place;
+}
+template <class T>
+void locate(RefList<T>& list, const Place& place) {
+    for (Ref<T>& ref : list)
+        ref.place = place;
 }
 
 /// Traits of an Attr whose reader is a function of the value alone.
@@ -214,15 +240,11 @@ struct ValueTraits<RefList<T>> {
                      Context, Diagnostics& diagnostics) {
         std::vector<std::string> names;
         if (!detail::readTextList(text, a, names, diagnostics)) return false;
-        std::size_t offset = 0;
+        detail::ValueWalker walker(text.valuePlace);
         list.clear();
-        for (std::string& name : names) {
-            const std::size_t length = name.size() + 1;
-            if (!name.empty()) {
-                list.emplace_back(std::move(name));
-                list.back().place = {text.valuePlace.file, text.valuePlace.offset + offset};
-            }
-            offset += length;
+        for (const std::string& name : names) {
+            if (!name.empty()) list.emplace_back(name).place = walker.place();
+            walker.advance(name.size() + 1);
         }
         return true;
     }

@@ -1,29 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "resource/xml.h"
 
+#include "core/text.h"
+#include "resource/xml_fault.h"
+
+#include <cctype>
 #include <cstring>
 
 namespace terrane {
+
+namespace {
+
+// The parser's own words, for what the scanner does not know.
+XmlFault faultOf(const pugi::xml_parse_result& result) {
+    std::string message = result.description();
+    message[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(message[0])));
+    return {static_cast<std::size_t>(result.offset), message, {}};
+}
+
+// Texts that the parser would take for something else.
+std::optional<XmlFault> wrongEncoding(const std::string& text) {
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        return XmlFault{0, "the file is in UTF-16", "UTF-8"};
+    const std::size_t zero = text.find('\0');
+    if (zero == std::string::npos) return std::nullopt;
+    return XmlFault{zero, "the file holds a zero byte", "text"};
+}
+
+} // namespace
 
 std::shared_ptr<const XmlDocument> XmlDocument::parse(std::shared_ptr<const SourceFile> source,
                                                       Diagnostics& diagnostics) {
     auto document = std::make_shared<XmlDocument>();
     document->source_ = std::move(source);
     const std::string& text = document->source_->text();
-    // The encoding is not converted, so that offsets into the text stay true.
-    const pugi::xml_parse_result result = document->document_.load_buffer(
-        text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!result) {
-        const Place place{document->source_, static_cast<std::size_t>(result.offset)};
-        std::string message = result.description();
-        message[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(message[0])));
-        diagnostics.error("xml-syntax", place, "XML syntax: " + message);
+    std::optional<XmlFault> fault = wrongEncoding(text);
+    if (!fault) {
+        // The encoding is not converted, so that offsets into the text stay true.
+        const pugi::xml_parse_result result = document->document_.load_buffer(
+            text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+        const bool empty = result.status == pugi::status_no_document_element;
+        if (!result && !empty) fault = findXmlFault(text);
+        if (!result && !empty && !fault) fault = faultOf(result);
+        if (!fault && !document->document_.document_element())
+            fault = XmlFault{0, "there is no element", "a root element such as <archive>"};
+    }
+    if (fault) {
+        diagnostics.error("xml-syntax", {document->source_, fault->offset},
+                          "XML syntax: " + fault->message, fault->expected);
         return nullptr;
     }
-    if (!document->document_.document_element()) {
-        diagnostics.error("xml-syntax", {document->source_, 0}, "there is no XML element",
-                          "a root element such as <archive>");
-        return nullptr;
+    const pugi::xml_node root = document->document_.document_element();
+    for (pugi::xml_node next = root.next_sibling(); next; next = next.next_sibling()) {
+        if (next.type() != pugi::node_element) continue;
+        diagnostics.warning("extra-root", XmlElement(document, next).place(),
+                            "what follows the root element <" + std::string(root.name()) +
+                                "> is ignored",
+                            "one root element");
+        break;
     }
     return document;
 }
@@ -32,7 +66,14 @@ XmlElement XmlDocument::root() const {
     return {shared_from_this(), document_.document_element()};
 }
 
+XmlElement XmlElement::blamedOn(Place place) const {
+    XmlElement copy = *this;
+    copy.blame_ = std::move(place);
+    return copy;
+}
+
 Place XmlElement::place() const {
+    if (blame_) return blame_;
     // pugixml gives the offset of the name.
     return {document_->source(), static_cast<std::size_t>(node_.offset_debug()) - 1};
 }
@@ -47,8 +88,9 @@ std::vector<XmlAttribute> XmlElement::attributes() const {
         const std::size_t name = text.find(attribute.name(), i);
         const std::size_t quote = text.find_first_of("\"'", name);
         if (name == std::string::npos || quote == std::string::npos) break; // can't be: it parsed
-        result.push_back(
-            {attribute.name(), attribute.value(), Place{source, name}, Place{source, quote + 1}});
+        const Place namePlace = blame_ ? blame_ : Place{source, name};
+        const Place valuePlace = blame_ ? blame_ : Place{source, quote + 1};
+        result.push_back({attribute.name(), attribute.value(), namePlace, valuePlace});
         i = text.find(text[quote], quote + 1) + 1;
     }
     return result;
@@ -57,9 +99,22 @@ std::vector<XmlAttribute> XmlElement::attributes() const {
 std::vector<XmlElement> XmlElement::children() const {
     std::vector<XmlElement> result;
     for (const pugi::xml_node child : node_.children()) {
-        if (child.type() == pugi::node_element) result.emplace_back(document_, child);
+        if (child.type() != pugi::node_element) continue;
+        result.emplace_back(document_, child);
+        result.back().blame_ = blame_;
     }
     return result;
+}
+
+Place XmlElement::textPlace() const {
+    for (const pugi::xml_node child : node_.children()) {
+        const bool text = child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata;
+        if (!text || isBlank(child.value())) continue;
+        const std::size_t blanks = std::strspn(child.value(), " \t\r\n");
+        if (blame_) return blame_;
+        return {document_->source(), static_cast<std::size_t>(child.offset_debug()) + blanks};
+    }
+    return {};
 }
 
 } // namespace terrane

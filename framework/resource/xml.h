@@ -24,7 +24,8 @@ struct XmlAttribute {
 /// declaration, several declarations, "--" in comments (ork reference 1.5).
 class XmlDocument : public std::enable_shared_from_this<XmlDocument> {
 public:
-    /// Null, with a diagnostic "xml-syntax", when the text is no XML.
+    /// Null, with a diagnostic "xml-syntax", when the text is no XML. A second root element is
+    /// ignored with a warning "extra-root".
     static std::shared_ptr<const XmlDocument> parse(std::shared_ptr<const SourceFile> source,
                                                     Diagnostics& diagnostics);
 
@@ -43,15 +44,24 @@ public:
         : document_(std::move(document))
         , node_(node) {}
 
+    /// The same element, with everything in it placed at one place: for an element that the author
+    /// never wrote, because it follows from a name that stands there.
+    XmlElement blamedOn(Place place) const;
+
     std::string tag() const { return node_.name(); }
     Place place() const; ///< the '<'
     std::vector<XmlAttribute> attributes() const;
     std::string attribute(const char* name) const { return node_.attribute(name).value(); }
     std::vector<XmlElement> children() const; ///< elements only
+    /// Whether both are the same element of the same document.
+    bool operator==(const XmlElement& other) const { return node_ == other.node_; }
+    /// The first visible character of text that stands in the element; empty when there is none.
+    Place textPlace() const;
 
 private:
     std::shared_ptr<const XmlDocument> document_;
     pugi::xml_node node_;
+    Place blame_;
 };
 
 } // namespace terrane
