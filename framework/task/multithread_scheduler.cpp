@@ -65,8 +65,9 @@ bool MultithreadScheduler::supports(Task::Kind kind) const {
 }
 
 bool MultithreadScheduler::schedule(const std::shared_ptr<Task>& task) {
+    assert(prefetch_.empty() && "Scheduler::schedule: called by Task::prepare");
+    if (!prefetch_.empty()) return false;
     if (!busy_) releaseEnded();
-    prefetch_.clear();
     prefetch_.add(task);
     bool supported = true;
     {

@@ -54,6 +54,8 @@ public:
     std::string_view name() const { return name_; }
 
     /// Called when the task, undone, becomes part of a graph: the last chance to change its inputs.
+    /// On the owner thread; a worker may be running the task at that moment, prefetched before.
+    /// Must not schedule tasks or add them to a graph.
     virtual void prepare() {}
 
     /// GPU tasks with equal contexts are run one after the other where possible, between one

@@ -259,3 +259,28 @@ TEST_CASE("An everyFrame task runs in each graph it is added to") {
         CHECK(draw->runs == frame);
     }
 }
+
+TEST_CASE("A task that becomes part of a graph may choose its inputs then") {
+    struct Choosing : TestTask {
+        using TestTask::TestTask;
+        void prepare() override {
+            ++prepared;
+            addPredecessor(chosen);
+        }
+        std::shared_ptr<TestTask> chosen = cpuTask();
+        int prepared = 0;
+    };
+    const auto task = std::make_shared<Choosing>(Task::Kind::cpu, TestTask::Function{});
+    TaskGraph graph;
+    graph.add(task);
+    graph.add(task);
+    CHECK(task->prepared == 1);
+    CHECK(graph.size() == 2);
+    MultithreadScheduler scheduler;
+    scheduler.run(graph);
+    CHECK(task->done());
+    CHECK(task->chosen->runs == 1);
+    graph.clear();
+    graph.add(task);
+    CHECK(task->prepared == 1); // it is done
+}
