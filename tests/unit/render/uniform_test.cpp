@@ -42,17 +42,18 @@ struct Form {
     const char* name;
 };
 
+// The structures start with 8 bytes, since Mesa 22.3 reads doubles behind a single float wrongly.
 const Form kForms[] = {
     {"uniform T u;", "u", "u"},
     {"uniform T u[3];", "(true ? u[2] : u[column])", "u[2]"},
-    {"struct S { float a; T m; }; uniform S u;", "u.m", "u.m"},
-    {"struct S { float a; T m; }; uniform S u[2];", "u[1].m", "u[1].m"},
+    {"struct S { vec2 a; T m; }; uniform S u;", "u.m", "u.m"},
+    {"struct S { vec2 a; T m; }; uniform S u[2];", "u[1].m", "u[1].m"},
     {"uniform B { float a; T u; };", "u", "u"},
     {"layout(row_major) uniform B { float a; T u; };", "u", "u"},
     {"uniform B { float a; T u; } b;", "b.u", "B.u"},
     {"uniform B { float a; T u[2]; };", "u[1]", "u[1]"},
-    {"struct S { float a; T m; }; uniform B { S u; };", "u.m", "u.m"},
-    {"struct S { float a; T m; }; layout(std140) uniform B { S u[2]; } b;", "b.u[1].m", "B.u[1].m"},
+    {"struct S { vec2 a; T m; }; uniform B { S u; };", "u.m", "u.m"},
+    {"struct S { vec2 a; T m; }; layout(std140) uniform B { S u[2]; } b;", "b.u[1].m", "B.u[1].m"},
 };
 
 std::string withType(std::string text, const std::string& type) {
