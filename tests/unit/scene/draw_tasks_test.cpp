@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scene_fixture.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace terrane {
+
+namespace {
+
+struct DrawFixture : SceneFixture {
+    DrawFixture() {
+        write("flat.glsl", "uniform vec4 colour;\n#ifdef _FRAGMENT_\n"
+                           "layout(location = 0) out vec4 result;\n"
+                           "void main() { result = colour; }\n#endif\n");
+        // Reads a texture at its smallest level.
+        write("show.glsl",
+              "uniform sampler2D image;\n#ifdef _FRAGMENT_\n"
+              "layout(location = 0) out vec4 result;\n"
+              "void main() { result = textureLod(image, vec2(0.5), 10.0); }\n#endif\n");
+    }
+
+    // Draws a full-screen quad in a colour.
+    static std::string paint(const std::string& module) {
+        return "<setProgram><module name=\"" + module +
+               "\"/></setProgram><drawMesh name=\"quad\"/>\n";
+    }
+    static std::string module(const std::string& name, const std::string& colour) {
+        return "<module name=\"" + name + "\" version=\"330\" source=\"flat.glsl\">" +
+               "<uniform4f name=\"colour\" " + colour + "/></module>\n";
+    }
+    void loadFrame(const std::string& entries, const std::string& tasks) {
+        load(module("red", R"(x="1" w="1")") + module("green", R"(y="1" w="1")") +
+             module("half", R"(z="1" w="0.5")") + entries + "<sequence name=\"frame\">\n" + tasks +
+             "</sequence><node name=\"scene\"><node flags=\"camera\"><translate x=\"1\" y=\"2\" "
+             "z=\"3\"/><method id=\"draw\" value=\"frame\"/></node></node>");
+    }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(DrawFixture, "setState changes what it says and leaves the rest") {
+    struct Row {
+        const char* name;
+        const char* state;
+        Colour after; // red below, green with that state on top
+    };
+    const Row rows[] = {
+        {"depth test fails at equal depth", "<setState/>", {255, 0, 0}},
+        {"depth test off", "<setState><depth enable='false'/></setState>", {0, 255, 0}},
+        {"depth function",
+         "<setState><depth enable='true' value='LEQUAL'/></setState>",
+         {0, 255, 0}},
+        {"depth without enable is off", "<setState><depth value='NEVER'/></setState>", {0, 255, 0}},
+        {"write mask",
+         "<setState><depth/><write r='true' g='false' b='true' a='true'/></setState>",
+         {0, 0, 0}},
+        {"scissor elsewhere",
+         "<setState><depth/><scissor enable='true' x='0' y='0' width='2' height='2'/></setState>",
+         {255, 0, 0}},
+        {"viewport elsewhere",
+         "<setState><depth/><viewport x='0' y='0' width='2' height='2'/></setState>",
+         {255, 0, 0}},
+        {"culled faces",
+         "<setState><depth/><polygon front='CULL' back='FILL'/></setState>",
+         {255, 0, 0}},
+        {"additive blending",
+         "<setState><depth/><blend enable='true' eq='ADD' src='ONE' dst='ONE'/></setState>",
+         {255, 255, 0}},
+        {"blend without attributes is off",
+         "<setState><depth/><blend enable='true' eq='ADD' src='ONE' dst='ONE'/><blend/></setState>",
+         {0, 255, 0}},
+        {"clear comes last",
+         "<setState clearColor='true'><depth/><clear r='0' g='0' b='1' a='1'/></setState>",
+         {0, 255, 0}},
+        {"logical operation",
+         "<setState><depth/><logic enable='true' value='XOR'/></setState>",
+         {255, 255, 0}},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.name);
+        scene.reset();
+        resources.reset();
+        loadFrame("", paint("red") + row.state + paint("green"));
+        CHECK(draw());
+        checkNoDiagnostics();
+        CHECK(pixel() == row.after);
+    }
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "State persists from frame to frame") {
+    loadFrame("", paint("red") + "<setState><depth enable='false'/></setState>");
+    draw();
+    CHECK_FALSE(target->framebuffer().state.depth.enabled);
+    draw();
+    CHECK_FALSE(target->framebuffer().state.depth.enabled);
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "setTarget draws into textures and goes back to the screen") {
+    loadFrame(R"(<texture2D name="image" internalformat="RGBA8" width="8" height="8" format="RGBA"
+                   type="UNSIGNED_BYTE" min="LINEAR_MIPMAP_LINEAR"/>
+                 <module name="show" version="330" source="show.glsl">
+                   <uniformSampler name="image" texture="image"/></module>)",
+              "<setTarget><buffer name='COLOR0' texture='image'/></setTarget>"
+              "<setState drawBuffer='COLOR0' clearColor='true'/>" +
+                  paint("green") + "<setTarget/>" + paint("show"));
+    CHECK(draw());
+    checkNoDiagnostics();
+    // The smallest mipmap level is green: the levels were made again when the target was left.
+    CHECK(pixel() == Colour{0, 255, 0});
+    CHECK(pixel(0, 0) == Colour{0, 255, 0});
+    CHECK(draw()); // and once more, in the next frame
+    CHECK(pixel() == Colour{0, 255, 0});
+    checkNoDiagnostics();
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "autoResize gives a target the size of the screen") {
+    loadFrame(R"(<texture2D name="image" internalformat="RGBA8" width="8" height="8" format="RGBA"
+                   type="UNSIGNED_BYTE"/>)",
+              "<setTarget autoResize='true'><buffer name='COLOR0' texture='image'/></setTarget>"
+              "<setState drawBuffer='COLOR0'/>" +
+                  paint("green") + "<setTarget/>");
+    CHECK(draw());
+    checkNoDiagnostics();
+    CHECK(resources->get<Texture>("image")->width() == kSize);
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "setTransforms hands over the frames of the scene") {
+    struct Row {
+        const char* attribute;
+        const char* expression;
+    };
+    // The camera, whose method this is, stands at (1,2,3); the frame's time is 1000, 10.
+    const Row rows[] = {
+        {"localToWorld='m'", "float(m[3].xyz == vec3(1,2,3))"},
+        {"cameraToWorld='m'", "float(m[3].xyz == vec3(1,2,3))"},
+        {"worldToScreen='m'", "float(abs((m * vec4(1,2,2,1)).w - 1.0) < 1e-5)"},
+        {"localToScreen='m'", "float(abs((m * vec4(0,0,-1,1)).w - 1.0) < 1e-5)"},
+        {"cameraToScreen='m'", "float(m[2].w == -1.0)"},
+        {"screenToCamera='m'", "float(abs(m[3].z + 1.0) < 1e-5)"},
+        {"worldPos='v'", "float(v == vec3(1,2,3))"},
+        {"worldDir='v'", "float(v == vec3(0,0,-1))"},
+        {"time='t'", "float(t == vec2(1000, 10))"},
+        {"localToScreen='m' screen='this'", "float(m == mat4(1))"},
+        {"worldToScreen='m' screen='this'", "float(m[3].xyz == vec3(-1,-2,-3))"},
+        {"worldPos='v' module='probe'", "float(v == vec3(1,2,3))"},
+        {"worldPos='unknown'", "1.0"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.attribute);
+        scene.reset();
+        resources.reset();
+        write("probe.glsl", "uniform mat4 m; uniform vec3 v; uniform vec2 t;\n#ifdef _FRAGMENT_\n"
+                            "layout(location = 0) out vec4 result;\n"
+                            "void main() { result = vec4(" +
+                                std::string(row.expression) + ", 0, 0, 1); }\n#endif\n");
+        loadFrame("<module name='probe' version='330' source='probe.glsl'/>",
+                  "<setProgram><module name='probe'/></setProgram><setTransforms " +
+                      std::string(row.attribute) + "/><drawMesh name='quad'/>");
+        scene->cameraToScreen = glm::perspective(1.0, 1.0, 1.0, 1e9);
+        CHECK(draw());
+        checkNoDiagnostics();
+        CHECK(pixel() == Colour{255, 0, 0});
+    }
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "drawMesh draws as many instances as it says") {
+    write("instances.glsl",
+          "#ifdef _VERTEX_\nlayout(location = 0) in vec4 vertex; flat out int id;\n"
+          "void main() { id = gl_InstanceID; gl_Position = vec4(vertex.xy, 0.5 - 0.1 * id, 1); }\n"
+          "#endif\n#ifdef _FRAGMENT_\nflat in int id; layout(location = 0) out vec4 result;\n"
+          "void main() { result = vec4(id == 2, 0, 0, 1); }\n#endif\n");
+    loadFrame(
+        "<module name='instances' version='330' source='instances.glsl'/>",
+        "<setProgram><module name='instances'/></setProgram><drawMesh name='quad' count='3'/>");
+    CHECK(draw());
+    checkNoDiagnostics();
+    CHECK(pixel() == Colour{255, 0, 0});
+}
+
+} // namespace terrane
