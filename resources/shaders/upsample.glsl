@@ -1,0 +1,140 @@
+// One tile of elevations (zf, zc, zm): upsamples the parent tile, adds residuals and noise.
+// (terrain reference 2.4)
+//
+// zf  elevation, the sum of all levels
+// zc  elevation of the parent's mesh here, for the transition between levels
+// zm  elevation to show; layers may change it, and 0 is the level of the sea
+//
+// Options: NO_CLAMP     zm below the sea is the ground, too
+//          SLOPE_NOISE  noise of positive amplitude depends on slope and curvature; that of
+//                       negative amplitude stays the same everywhere
+//          CUSTOM_RELIEF  another file, which includes this one, defines rootElevation and
+//                       noiseFactor
+
+uniform vec4 tileWSDF; // width of tiles in texels, metres per texel, texels per mesh cell, flip?
+
+uniform sampler2DArray coarseLevelSampler; // elevations
+uniform vec4 coarseLevelOSL;               // the parent: lower left corner, texel size, layer;
+                                           // negative for the root
+uniform sampler2D residualSampler;         // texel by texel
+uniform vec4 residualOSH;                  // offset, scale; w: 1 if there are residuals, else 0
+
+uniform sampler2DArray noiseSampler; // see noiseUVLH
+uniform vec4 noiseUVLH; // which of (u, v, 1-u, 1-v) to take for u and for v; layer; amplitude
+
+#ifdef _VERTEX_
+
+layout(location = 0) in vec4 vertex;
+
+void main() {
+    gl_Position = vertex;
+}
+
+#endif
+
+#ifdef _FRAGMENT_
+
+layout(location = 0) out vec4 data;
+
+// Samples of the parent are fetched, not filtered: filters have few bits, elevations need many.
+
+vec4 parent(ivec2 texel) {
+    ivec2 size = textureSize(coarseLevelSampler, 0).xy;
+    ivec2 first = ivec2(coarseLevelOSL.xy / coarseLevelOSL.z + 0.5);
+    ivec2 inside = clamp(first + texel, ivec2(0), size - 1);
+    return texelFetch(coarseLevelSampler, ivec3(inside, int(coarseLevelOSL.w)), 0);
+}
+
+// Even texels lie on the second of four parent texels; odd ones half way between the middle two,
+// on the cubic through all four.
+vec4 weights(int texel) {
+    return texel % 2 == 0 ? vec4(0.0, 1.0, 0.0, 0.0) : vec4(-1.0, 9.0, 9.0, -1.0) / 16.0;
+}
+
+// Parent elevations: rows of four.
+mat4 parentBlock(ivec2 texel) {
+    mat4 z;
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i)
+            z[j][i] = parent(texel / 2 + ivec2(i, j)).x;
+    return z;
+}
+
+float upsampled(mat4 z, ivec2 texel) {
+    return dot(weights(texel.x) * z, weights(texel.y));
+}
+
+#ifdef CUSTOM_RELIEF
+// What is added to the root tile at a place, metres from the centre of the terrain.
+float rootElevation(vec2 place);
+// What the amplitude of noise is multiplied with, given 4x4 elevations of the parent, rows from the
+// south, and the metres between them.
+float noiseFactor(mat4 z, float d);
+#elif defined SLOPE_NOISE
+float noiseFactor(mat4 z, float d) {
+    float slopeX = (z[1][2] - z[1][0]) / (2.0 * d);
+    float slopeY = (z[2][1] - z[0][1]) / (2.0 * d);
+    float curvature = (z[1][2] + z[1][0] + z[2][1] + z[0][1] - 4.0 * z[1][1]) / d;
+    float slope = length(vec2(slopeX, slopeY));
+    return max(clamp(4.0 * curvature, 0.0, 1.5), clamp(2.0 * slope - 0.5, 0.1, 4.0));
+}
+#endif
+
+float noise(ivec2 texel) {
+    ivec4 uvs = ivec4(texel, ivec2(int(tileWSDF.x) - 1) - texel);
+    ivec2 uv = ivec2(uvs[int(noiseUVLH.x)], uvs[int(noiseUVLH.y)]);
+    return texelFetch(noiseSampler, ivec3(uv, int(noiseUVLH.z)), 0).x;
+}
+
+int floorDivide(int a, int b) {
+    return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+// Vertices of the parent's mesh, counted from the quad's corner.
+float parentVertex(int x, int y) {
+    int g = int(tileWSDF.z);
+    return parent(2 + g * ivec2(x, y)).z;
+}
+
+// On the edges of the parent's triangles, whose diagonals run from north-west to south-east: the
+// mean of the two vertices around the texel.
+float coarseElevation(ivec2 texel) {
+    int g = int(tileWSDF.z);
+    ivec2 ij = texel - 2;
+    int x0 = floorDivide(ij.x, 2 * g), x1 = floorDivide(ij.x + g, 2 * g);
+    int y0 = floorDivide(ij.y, 2 * g), y1 = floorDivide(ij.y + g, 2 * g);
+    float falling = 0.5 * (parentVertex(x1, y0) + parentVertex(x0, y1));
+    // In the middle of a cell, if the mesh turns its diagonals towards the ridges.
+    bool middle = ij.x - 2 * g * x0 == g && ij.y - 2 * g * y0 == g;
+    if (tileWSDF.w == 0.0 || !middle) return falling;
+    float rising = 0.5 * (parentVertex(x0, y0) + parentVertex(x1, y1));
+    return max(falling, rising);
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    bool root = coarseLevelOSL.x < 0.0;
+    float amplitude = abs(noiseUVLH.w);
+    float zf = 0.0;
+    if (!root) {
+        mat4 z = parentBlock(texel);
+        zf = upsampled(z, texel);
+#if defined CUSTOM_RELIEF || defined SLOPE_NOISE
+        if (noiseUVLH.w > 0.0) amplitude *= noiseFactor(z, 2.0 * tileWSDF.y);
+#endif
+    }
+#ifdef CUSTOM_RELIEF
+    if (root) zf = rootElevation((vec2(texel) - 0.5 * (tileWSDF.x - 1.0)) * tileWSDF.y);
+#endif
+    if (residualOSH.w != 0.0) zf += residualOSH.w * texelFetch(residualSampler, texel, 0).x;
+    if (amplitude != 0.0) zf += amplitude * noise(texel);
+    float zc = root ? zf : coarseElevation(texel);
+#ifdef NO_CLAMP
+    float zm = zf;
+#else
+    float zm = max(zf, 0.0);
+#endif
+    data = vec4(zf, zc, zm, 0.0);
+}
+
+#endif
