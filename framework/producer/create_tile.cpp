@@ -66,7 +66,9 @@ bool CreateTile::run() {
 }
 
 void CreateTile::prepare() {
-    if (home_ && !acquire()) markUndone(Reason::dependencyChanged);
+    if (!home_) return;
+    setDeadline(home_->deadline_);
+    if (!acquire()) markUndone(Reason::dependencyChanged);
 }
 
 bool CreateTile::acquire() {
@@ -81,7 +83,6 @@ bool CreateTile::acquire() {
         const std::lock_guard lock(running_);
         acquired_ = true;
     } else {
-        producer_->stopCreateTile(tile_);
         for (Tile* input : inputs_.tiles_)
             input->producer().putTile(*input);
         inputs_.tiles_.clear();
@@ -112,7 +113,6 @@ void CreateTile::release() {
     for (Tile* input : inputs_.tiles_)
         input->producer().putTile(*input);
     inputs_.tiles_.clear();
-    if (producer_) producer_->stopCreateTile(tile_);
 }
 
 bool CreateTile::revoke() {

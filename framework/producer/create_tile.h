@@ -51,7 +51,7 @@ public:
     void end() override;
     /// Does nothing when the tile was evicted; does nothing and stays undone without its inputs.
     bool run() override;
-    /// Acquires the inputs if the tile is in a cache.
+    /// Acquires the inputs if the tile is in a cache; due when its users want it.
     void prepare() override;
 
 private:

@@ -84,7 +84,9 @@ std::shared_ptr<GpuTileStorage> buildGpuTileStorage(const GpuTileStorageDescript
         context.diagnostics().error("bad-texture", d.place, problem);
         return nullptr;
     }
-    return std::make_shared<GpuTileStorage>(gl, description, maxLayers);
+    auto storage = std::make_shared<GpuTileStorage>(gl, description, maxLayers);
+    storage->setPlaces(d.tileSize.place, d.internalformat.place);
+    return storage;
 }
 
 void declareGpuTileStorage(Registry& registry) {
@@ -162,7 +164,9 @@ void declareCpuTileStorage(Registry& registry, const std::string& tag, std::stri
                                   "fewer, or smaller, tiles");
         })
         .build([](const D& d, BuildContext&) {
-            return std::make_shared<CpuTileStorage<T>>(d.tileSize, d.channels, d.capacity);
+            auto storage = std::make_shared<CpuTileStorage<T>>(d.tileSize, d.channels, d.capacity);
+            storage->setPlaces(d.tileSize.place, d.channels.place);
+            return storage;
         });
 }
 
@@ -180,7 +184,9 @@ void declareObjectTileStorage(Registry& registry) {
         .atLeast(1)
         .atMost(1 << 24)
         .build([](const D& d, BuildContext&) {
-            return std::make_shared<ObjectTileStorage>(*d.capacity);
+            auto storage = std::make_shared<ObjectTileStorage>(*d.capacity);
+            storage->setPlaces(d.place, d.place);
+            return storage;
         });
 }
 

@@ -63,6 +63,7 @@ Tile* TileCache::getTile(TileProducer& producer, const TileId& id, unsigned dead
     if (!tile) return refuse(key);
     use(*tile);
     CreateTile& task = *tile->task_;
+    tile->deadline_ = std::min(tile->deadline_, deadline);
     task.setDeadline(deadline);
     if (!fresh && task.done()) {
         ++counts_.hits;
@@ -174,7 +175,9 @@ void TileCache::use(Tile& tile) {
 
 void TileCache::unuse(Tile& tile) {
     assert(tile.users_ > 0 && "TileCache::putTile: the tile is not in use");
-    if (--tile.users_ == 0) linkNewest(tile);
+    if (--tile.users_ > 0) return;
+    tile.deadline_ = Task::kWhenever;
+    linkNewest(tile);
 }
 
 void TileCache::linkNewest(Tile& tile) {

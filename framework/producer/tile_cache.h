@@ -40,6 +40,7 @@ public:
         , slot_(slot) {}
 
 private:
+    friend class CreateTile;
     friend class TileCache;
 
     TileCache& cache_;
@@ -48,7 +49,8 @@ private:
     TileSlot& slot_;
     std::shared_ptr<CreateTile> task_;
     int users_ = 0;
-    Tile* older_ = nullptr; // among the unused ones
+    unsigned deadline_ = Task::kWhenever; // the earliest that a user asked for
+    Tile* older_ = nullptr;               // among the unused ones
     Tile* newer_ = nullptr;
 };
 

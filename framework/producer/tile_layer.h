@@ -32,10 +32,9 @@ public:
     /// Around a run of tiles.
     virtual void beginCreateTile() {}
     virtual void endCreateTile() {}
-    /// Draws into the target that the producer has bound. Returns whether anything changed.
+    /// Draws into the producer's target(), whose pipeline state it may change for itself. Returns
+    /// whether anything changed.
     virtual bool doCreateTile(const TileId&, TileSlot&, const TileInputs&) = 0;
-    /// The inputs have been released.
-    virtual void stopCreateTile(const TileId&) {}
     /// Prefetches what a tile would read, when the producer can't prefetch the tile itself.
     virtual void prefetchTile(const TileId&) {}
     virtual void setRootQuadSize(float) {}

@@ -2,6 +2,7 @@
 #include "producer/tile_producer.h"
 
 #include "producer/gpu_tile_storage.h"
+#include "render/framebuffer.h"
 #include "task/scheduler.h"
 
 #include <algorithm>
@@ -95,14 +96,14 @@ void TileProducer::endCreateTile() {
 
 bool TileProducer::doCreateTile(const TileId& tile, TileSlot& slot, const TileInputs& inputs) {
     bool changed = false;
-    for (const auto& layer : layers_)
-        if (layer->enabled()) changed |= layer->doCreateTile(tile, slot, inputs);
+    Framebuffer* const drawn = target();
+    for (const auto& layer : layers_) {
+        if (!layer->enabled()) continue;
+        const PipelineState before = drawn ? drawn->state : PipelineState();
+        changed |= layer->doCreateTile(tile, slot, inputs);
+        if (drawn) drawn->state = before;
+    }
     return changed;
-}
-
-void TileProducer::stopCreateTile(const TileId& tile) {
-    for (const auto& layer : layers_)
-        if (layer->enabled()) layer->stopCreateTile(tile);
 }
 
 TileProducer::Statistics TileProducer::statistics() const {

@@ -17,6 +17,7 @@
 
 namespace terrane {
 
+class Framebuffer;
 class SceneManager;
 
 /// Makes the tiles of one kind of data of a landscape: elevations, normals, colours, graphs. A tile
@@ -80,6 +81,8 @@ public:
     const std::vector<std::shared_ptr<TileLayer>>& layers() const { return layers_; }
     bool hasEnabledLayers() const;
     void addLayer(std::shared_ptr<TileLayer> layer);
+    /// What layers draw a tile into. Null when they don't draw.
+    virtual Framebuffer* target() { return nullptr; }
 
     /// Asks for the tiles that the production of a tile reads. False when a cache is full.
     /// Overrides call this one too, for the layers.
@@ -89,8 +92,6 @@ public:
     virtual void endCreateTile();
     /// Makes a tile. Returns whether its data changed. Overrides call this one for the layers.
     virtual bool doCreateTile(const TileId& tile, TileSlot& slot, const TileInputs& inputs);
-    /// The inputs of a tile have been released.
-    virtual void stopCreateTile(const TileId& tile);
     /// GPU tasks with the same context run one after the other, between one beginCreateTile and one
     /// endCreateTile.
     virtual const void* taskContext() const { return nullptr; }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/source.h"
 #include "resource/resource.h"
 
 #include <cassert>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace terrane {
@@ -55,6 +57,15 @@ public:
     /// Back to the end of the free ones.
     void deleteSlot(TileSlot& slot);
 
+    /// Where an archive says what the tiles are like, for messages about storages that a producer
+    /// can't use.
+    const Place& tileSizePlace() const { return tileSizePlace_; }
+    const Place& formatPlace() const { return formatPlace_; }
+    void setPlaces(Place tileSize, Place format) {
+        tileSizePlace_ = std::move(tileSize);
+        formatPlace_ = std::move(format);
+    }
+
     TileSlot& slot(int index) const { return *slots_[static_cast<std::size_t>(index)]; }
 
 protected:
@@ -65,6 +76,7 @@ protected:
 
 private:
     const int tileSize_;
+    Place tileSizePlace_, formatPlace_;
     std::vector<std::unique_ptr<TileSlot>> slots_;
     std::vector<TileSlot*> free_; // a ring
     int firstFree_ = 0;

@@ -1,0 +1,92 @@
+// One tile of normals from the elevations of the same quad, and with four channels those of the
+// parent's mesh. x and y in the tangent frame at the quad's centre. (terrain reference 2.6)
+
+uniform vec3 tileSDF; // width of tiles in texels, texels per mesh cell, format: 0 = two signed
+                      // normals, 1 = two unsigned, 2 = one signed, 3 = one unsigned
+
+uniform sampler2DArray elevationSampler;
+uniform vec4 elevationOSL; // the quad: lower left corner, texel size, layer
+
+uniform sampler2DArray normalSampler;
+uniform vec4 normalOSL; // the parent's normals; negative if not wanted
+
+uniform mat4 patchCorners;         // spheres: the quad's corners relative to their mean
+uniform mat4 patchVerticals;       // spheres: upward unit vectors at the corners
+uniform vec4 patchCornerNorms;     // spheres: distance of the flat quad's corners to the centre
+uniform mat3 worldToTangentFrame;  // spheres: rows are east, north, up
+uniform mat3 parentToTangentFrame; // spheres
+uniform vec4 deform;               // lower left corner, size, radius; radius 0 when flat
+
+#ifdef _VERTEX_
+
+layout(location = 0) in vec4 vertex;
+
+void main() {
+    gl_Position = vertex;
+}
+
+#endif
+
+#ifdef _FRAGMENT_
+
+layout(location = 0) out vec4 data;
+
+float elevation(ivec2 texel) {
+    ivec2 first = ivec2(elevationOSL.xy / elevationOSL.z);
+    return texelFetch(elevationSampler, ivec3(first + texel, int(elevationOSL.w)), 0).z;
+}
+
+// Where a texel is, relative to some point near the quad.
+vec3 position(ivec2 texel) {
+    float h = elevation(texel);
+    vec2 uv = vec2(texel) / (tileSDF.x - 1.0);
+    float R = deform.w;
+    if (R == 0.0) return vec3(uv * deform.z, h);
+
+    vec4 uvUV = vec4(uv, vec2(1.0) - uv);
+    vec4 alpha = uvUV.zxzx * uvUV.wwyy;
+    vec4 alphaPrime = alpha * patchCornerNorms / dot(alpha, patchCornerNorms);
+    vec4 up = patchVerticals * alphaPrime;
+    // The interpolated vertical is shorter than 1 between corners; not for small quads, where the
+    // difference would only be noise.
+    float k = mix(length(up.xyz), 1.0, smoothstep(R / 32.0, R / 64.0, deform.z));
+    float hPrime = (h + R * (1.0 - k)) / k;
+    return (patchCorners * alphaPrime).xyz + hPrime * up.xyz;
+}
+
+int floorDivide(int a, int b) {
+    return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+vec2 decoded(vec2 n) {
+    return tileSDF.z == 1.0 ? 2.0 * n - 1.0 : n;
+}
+
+vec2 parentNormal(ivec2 vertex) {
+    ivec2 first = ivec2(normalOSL.xy / normalOSL.z);
+    ivec3 texel = ivec3(first + int(tileSDF.y) * vertex, int(normalOSL.w));
+    return decoded(texelFetch(normalSampler, texel, 0).xy);
+}
+
+// Between vertices of the parent's mesh, as coarse elevations are.
+vec2 coarseNormal(ivec2 texel) {
+    int g = int(tileSDF.y);
+    ivec2 v0 = ivec2(floorDivide(texel.x, 2 * g), floorDivide(texel.y, 2 * g));
+    ivec2 v1 = ivec2(floorDivide(texel.x + g, 2 * g), floorDivide(texel.y + g, 2 * g));
+    vec2 n = 0.5 * (parentNormal(ivec2(v1.x, v0.y)) + parentNormal(ivec2(v0.x, v1.y)));
+    if (deform.w == 0.0) return n;
+    float z = sqrt(max(1.0 - dot(n, n), 0.0));
+    return (parentToTangentFrame * vec3(n, z)).xy;
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    vec3 east = position(texel + ivec2(1, 0)) - position(texel - ivec2(1, 0));
+    vec3 north = position(texel + ivec2(0, 1)) - position(texel - ivec2(0, 1));
+    vec3 normal = normalize(worldToTangentFrame * cross(east, north));
+    vec2 coarse = normalOSL.x < 0.0 ? normal.xy : coarseNormal(texel);
+    data = vec4(normal.xy, tileSDF.z < 2.0 ? coarse : vec2(0.0));
+    if (tileSDF.z == 1.0 || tileSDF.z == 3.0) data = 0.5 * data + 0.5;
+}
+
+#endif
