@@ -39,6 +39,10 @@ GlContext::GlContext(Diagnostics& diagnostics)
 
 GlContext::~GlContext() = default;
 
+void GlContext::finish() const {
+    gl_->Finish();
+}
+
 bool GlContext::initialise(Loader loader, const Options& options) {
     const int version = gladLoadGLContext(gl_.get(), loader);
     if (version < GLAD_MAKE_VERSION(4, 5)) {

@@ -31,6 +31,8 @@ public:
     /// Makes this the calling thread's current context (cheap when it already is).
     virtual void makeCurrent() = 0;
     virtual bool isCurrent() const = 0;
+    /// Waits until everything that was sent has been done.
+    void finish() const;
 
     /// The functions of this context. Only render/ includes glad's header and calls them.
     const GladGLContext& gl() const { return *gl_; }

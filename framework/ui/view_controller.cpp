@@ -84,6 +84,26 @@ View TerrainViewController::between(const View& a, const View& b, double t) cons
     return v;
 }
 
+View TerrainViewController::fromDegrees(const View& degrees) const {
+    View v = degrees;
+    const glm::dvec2 units = groundUnits();
+    v.x0 *= units.x;
+    v.y0 *= units.y;
+    v.theta = glm::radians(v.theta);
+    v.phi = glm::radians(v.phi);
+    return v;
+}
+
+View TerrainViewController::toDegrees(const View& view) const {
+    View v = view;
+    const glm::dvec2 units = groundUnits();
+    v.x0 /= units.x;
+    v.y0 /= units.y;
+    v.theta = glm::degrees(v.theta);
+    v.phi = glm::degrees(v.phi);
+    return v;
+}
+
 glm::dvec3 TerrainViewController::aboveFloor(const glm::dvec3& position) const {
     return {position.x, position.y, std::max(position.z, groundHeight + clearance())};
 }

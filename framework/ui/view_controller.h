@@ -55,6 +55,10 @@ public:
     /// a full turn, and the distance grows by equal factors.
     virtual View between(const View& a, const View& b, double t) const;
 
+    /// A view as people write it, in degrees, and back. Lengths stay.
+    View fromDegrees(const View& degrees) const;
+    View toDegrees(const View& view) const;
+
     static constexpr double kFieldOfView = 80; ///< horizontal, degrees
 
 protected:
@@ -66,6 +70,8 @@ protected:
     /// Moves a camera that would be in the ground out of it.
     virtual glm::dvec3 aboveFloor(const glm::dvec3& position) const;
     virtual double heightOf(const glm::dvec3& position) const;
+    /// How many radians a unit of x0 and of y0 in degrees is: 1 for lengths.
+    virtual glm::dvec2 groundUnits() const { return {1, 1}; }
     /// Least height above the ground, metres.
     virtual double clearance() const { return 1; }
 };
@@ -87,6 +93,7 @@ protected:
     Place place() const override;
     glm::dvec3 aboveFloor(const glm::dvec3& position) const override;
     double heightOf(const glm::dvec3& position) const override;
+    glm::dvec2 groundUnits() const override { return glm::radians(glm::dvec2(1)); }
     double clearance() const override { return 0.5; }
 
 private:
@@ -108,6 +115,7 @@ protected:
     Place place() const override;
     glm::dvec3 aboveFloor(const glm::dvec3& position) const override;
     double heightOf(const glm::dvec3& position) const override;
+    glm::dvec2 groundUnits() const override { return {1, glm::radians(1.0)}; }
 
 private:
     double radius_;

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <glm/gtc/constants.hpp>
 #include <memory>
+#include <string>
 #include <vector>
 
 using namespace terrane;
@@ -236,4 +237,19 @@ TEST_CASE("a flight starts and ends at its views and passes between them") {
     PlanetViewController planet(kRadius);
     const View v = planet.between({.x0 = 3}, {.x0 = -3}, 0.5);
     CHECK(std::abs(v.x0) == doctest::Approx(glm::pi<double>()));
+}
+
+TEST_CASE("people write angles in degrees and lengths in metres") {
+    const View written{.x0 = 90, .y0 = 45, .theta = 60, .phi = 180, .d = 1000};
+    for (Shape& shape : shapes()) {
+        CAPTURE(shape.name);
+        const View v = shape.controller->fromDegrees(written);
+        const std::string name = shape.name;
+        CHECK(v.x0 == doctest::Approx(name == "planet" ? kQuarter : 90));
+        CHECK(v.y0 == doctest::Approx(name == "flat" ? 45 : kQuarter / 2));
+        CHECK(v.theta == doctest::Approx(glm::pi<double>() / 3));
+        CHECK(v.phi == doctest::Approx(glm::pi<double>()));
+        CHECK(v.d == 1000);
+        CHECK(shape.controller->toDegrees(v).y0 == doctest::Approx(45));
+    }
 }

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/player.h"
+
+#include "app/start_view.h"
+#include "render/context.h"
+#include "render/program_bindings.h"
+#include "render/render_target.h"
+#include "resource/library.h"
+#include "resource/manager.h"
+#include "scene/scene_manager.h"
+#include "task/multithread_scheduler.h"
+#include "terrain/terrain_node.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace terrane {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+} // namespace
+
+Player::Player(const Registry& registry, PlayerOptions options)
+    : registry_(registry)
+    , options_(std::move(options)) {
+    if (options_.recordFrames) metrics_.reserve();
+}
+
+Player::~Player() {
+    if (context_) context_->makeCurrent(); // GL objects die with it
+}
+
+bool Player::load() {
+    if (!open()) return false;
+    const bool drawable = setScene(true);
+    if (diagnostics_.errors() > 0 && !options_.keepGoing) return false;
+    return drawable;
+}
+
+void Player::check() {
+    if (!open()) return;
+    resources_->loadAll();
+    setScene(false);
+}
+
+bool Player::open() {
+    const Clock::time_point begin = Clock::now();
+    if (!openArchive()) return false;
+    const Clock::time_point read = Clock::now();
+    if (!openContext()) return false;
+    metrics_.startup.context = milliseconds(read, Clock::now());
+    metrics_.startup.load = milliseconds(begin, read);
+
+    resources_ = std::make_unique<ResourceManager>(registry_, *library_, diagnostics_);
+    resources_->services().provide(*context_);
+    resources_->services().provide(*bindings_);
+    scene_ = std::make_unique<SceneManager>(*resources_, *context_, target_->framebuffer());
+    settings_ = readPlayerSettings(*library_, registry_);
+    return true;
+}
+
+bool Player::openArchive() {
+    const auto archive = resolveArchive(options_.archive, diagnostics_);
+    if (!archive) return false;
+    library_ = std::make_unique<Library>(archiveSearchPath(*archive, options_.paths), diagnostics_);
+    return library_->addArchive(*archive);
+}
+
+bool Player::openContext() {
+    context_ = createOsMesaContext(
+        diagnostics_, {.debug = options_.debug, .maxAnisotropy = options_.maxAnisotropy});
+    if (!context_) return false;
+    context_->makeCurrent();
+    bindings_ = std::make_unique<ProgramBindings>(*context_);
+    target_ = std::make_unique<RenderTarget>(*context_, options_.width, options_.height);
+    // Archives count on this (ork reference 4.3).
+    target_->framebuffer().state.depth = {true, CompareFunction::less};
+    return true;
+}
+
+bool Player::setScene(bool rootRequired) {
+    const Clock::time_point begin = Clock::now();
+    // A file of resources for others has nothing to play and is fine for `check`.
+    const bool conventional = !settings_.hasPlayer;
+    if (conventional && !library_->find(settings_.root.name)) {
+        if (!rootRequired) return false;
+        diagnostics_.error("no-root", {}, "the archive has nothing to draw",
+                           "a node '" + settings_.root.name + "', or <player root=\"...\"/>");
+        return false;
+    }
+    resources_->resolve(settings_.root, typeid(SceneNode), nullptr);
+    if (!setScheduler() || !settings_.root) return false;
+    scene_->setRoot(settings_.root);
+    scene_->setCamera(settings_.camera, settings_.method);
+    const Clock::time_point loaded = Clock::now();
+    metrics_.startup.load += milliseconds(begin, loaded);
+    const bool planned = scene_->plan();
+    metrics_.startup.compile = milliseconds(loaded, Clock::now());
+    setStartView();
+    return planned;
+}
+
+bool Player::setScheduler() {
+    Scheduler* scheduler = nullptr;
+    if (!settings_.hasPlayer && !library_->find(settings_.scheduler.name)) {
+        ownScheduler_ = std::make_shared<MultithreadScheduler>();
+        scheduler = ownScheduler_.get();
+    } else {
+        resources_->resolve(settings_.scheduler, typeid(Scheduler), nullptr);
+        scheduler = settings_.scheduler.get();
+    }
+    if (!scheduler) return false;
+    observe(*scheduler);
+    scene_->setScheduler(*scheduler);
+    return true;
+}
+
+void Player::observe(Scheduler& scheduler) {
+    scheduler.setErrorHandler([this](const Task& task, const std::string& message) {
+        diagnostics_.error("task-failed", {}, std::string(task.name()) + ": " + message);
+    });
+    scheduler.setObserver([this](const TaskRun& run) {
+        if (!run.task.everyFrame()) ++tileTasks_;
+        if (options_.trace) trace_.addTask(run);
+    });
+}
+
+void Player::setStartView() {
+    scene_->update(0, 0); // for the bounds
+    controller_ = makeViewController(*settings_.root);
+    if (settings_.view) controller_->view = *settings_.view;
+    if (options_.view) controller_->view = controller_->fromDegrees(*options_.view);
+}
+
+bool Player::frame() {
+    if (!controller_) return false;
+    const std::uint64_t allocations = options_.allocations ? options_.allocations() : 0;
+    context_->makeCurrent();
+    const Clock::time_point begin = Clock::now();
+    const bool moved = controller_->view != lastView_;
+    tileTasks_ = 0;
+    advanceTime();
+    placeCamera();
+    clear();
+    const Clock::time_point cleared = Clock::now();
+    scene_->update(time_ * 1e6, elapsed_ * 1e6);
+    const Clock::time_point updated = Clock::now();
+    const bool drawn = scene_->draw();
+    const Clock::time_point end = Clock::now();
+    followGround();
+    if (options_.allocations) metrics_.allocationsLastFrame = options_.allocations() - allocations;
+
+    if (options_.trace) {
+        trace_.addSpan("update", cleared, updated);
+        trace_.addSpan("draw", updated, end);
+    }
+    if (options_.recordFrames) {
+        context_->finish();
+        metrics_.addFrame({.cpu = milliseconds(begin, end),
+                           .gl = milliseconds(end, Clock::now()),
+                           .update = milliseconds(cleared, updated),
+                           .draw = milliseconds(updated, end),
+                           .tiles = tileTasks_});
+    }
+    if (frames_ == 0) metrics_.startup.firstFrame = milliseconds(begin, Clock::now());
+    ++frames_;
+    countQuietFrame(moved);
+    return drawn;
+}
+
+bool Player::drawUntilComplete(int mostFrames) {
+    for (int i = 0; i < mostFrames && !complete(); ++i) {
+        if (!frame()) return false;
+    }
+    return complete();
+}
+
+void Player::advanceTime() {
+    const Clock::time_point now = Clock::now();
+    if (frames_ == 0) start_ = now;
+    double next = frames_ * options_.timeStep;
+    if (options_.timeStep <= 0) next = milliseconds(start_, now) / 1000;
+    elapsed_ = next - time_;
+    time_ = next;
+}
+
+void Player::placeCamera() {
+    if (SceneNode* const camera = scene_->camera())
+        camera->localToParent = controller_->cameraToWorld();
+    scene_->cameraToScreen = controller_->cameraToScreen(options_.width, options_.height);
+}
+
+void Player::clear() {
+    // Whatever a method left switched off, a frame starts on an empty picture.
+    Framebuffer& screen = target_->framebuffer();
+    const PipelineState::Masks write = std::exchange(screen.state.write, {});
+    const bool scissor = std::exchange(screen.state.scissor.enabled, false);
+    screen.clear(Planes::all);
+    screen.state.write = write;
+    screen.state.scissor.enabled = scissor;
+}
+
+void Player::followGround() {
+    const TerrainNode* const terrain = terrainBelowCamera(*scene_->root());
+    if (terrain) controller_->groundHeight = terrain->groundHeight();
+}
+
+void Player::countQuietFrame(bool moved) {
+    const bool waiting = scene_->scheduler()->statistics().waiting > 0;
+    const bool settled = controller_->groundHeight == lastGround_;
+    const bool quiet = !moved && !waiting && settled && tileTasks_ == 0;
+    quietFrames_ = quiet ? quietFrames_ + 1 : 0;
+    lastView_ = controller_->view;
+    lastGround_ = controller_->groundHeight;
+}
+
+Image Player::capture() {
+    context_->makeCurrent();
+    return target_->captureOpaque();
+}
+
+void Player::mark() {
+    metrics_.mark(*resources_);
+}
+
+nlohmann::ordered_json Player::metrics() {
+    return metrics_.json(*resources_, {.renderer = context_->renderer(),
+                                       .width = options_.width,
+                                       .height = options_.height,
+                                       .glObjects = context_->objectCount()});
+}
+
+std::string Player::traceJson() const {
+    return options_.trace ? trace_.json() : std::string();
+}
+
+} // namespace terrane

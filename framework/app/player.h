@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/metrics.h"
+#include "app/options.h"
+#include "app/player_element.h"
+#include "app/trace.h"
+#include "core/diagnostic.h"
+#include "core/image.h"
+#include "ui/view_controller.h"
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace terrane {
+
+class GlContext;
+class Library;
+class Registry;
+class RenderTarget;
+class ResourceManager;
+class SceneManager;
+class Scheduler;
+struct ProgramBindings;
+
+/// Plays one archive: loads it, moves its camera, draws its frames into a picture of its own. Owns
+/// everything that takes, so that several players live in one process; each is used on one thread
+/// at a time, and makes its OpenGL context current whenever it needs it.
+///
+///     Registry registry;
+///     registerStandardTypes(registry);
+///     registerStandardPlugins(registry);
+///     Player player(registry, {.archive = "archives/mountains"});
+///     if (player.load()) {
+///         while (!player.complete()) player.frame();
+///         writePng("mountains.png", player.capture());
+///     }
+///
+/// Nothing throws; what is wrong with the archive is told by diagnostics().
+class Player {
+public:
+    /// @param registry must outlive the player
+    Player(const Registry& registry, PlayerOptions options);
+    ~Player();
+    Player(const Player&) = delete;
+    Player& operator=(const Player&) = delete;
+
+    /// Loads what the root node reaches and binds the methods of the frame. False when nothing can
+    /// be drawn, and after errors unless the options say to keep going. To be called once.
+    bool load();
+    /// Instead of load(): loads every entry, used or not, and binds the methods of the frame if
+    /// there is a root node. To be called once.
+    void check();
+
+    /// There is something to draw: what follows may be called.
+    bool drawable() const { return controller_ != nullptr; }
+    /// Draws the next frame. False when there is nothing to draw.
+    bool frame();
+    /// Draws frames until the picture is complete. False when it is not after so many, or when
+    /// there is nothing to draw.
+    bool drawUntilComplete(int mostFrames = kMostFrames);
+    /// The picture is complete: the last frames made no tile and left none waiting, and neither
+    /// view nor ground moved.
+    bool complete() const { return quietFrames_ >= kQuietFrames; }
+    int frames() const { return frames_; }
+
+    /// The last frame; RGB. Waits for OpenGL.
+    Image capture();
+
+    /// Where the camera is. Free to change between frames.
+    TerrainViewController& controller() { return *controller_; }
+
+    Diagnostics& diagnostics() { return diagnostics_; }
+    /// Only after load() or check(); null when the archive or the context could not be had.
+    ResourceManager* resources() { return resources_.get(); }
+    SceneManager* scene() { return scene_.get(); }
+    const PlayerOptions& options() const { return options_; }
+
+    /// Counters start again.
+    void mark();
+    const Metrics& counters() const { return metrics_; }
+    /// See Metrics.
+    nlohmann::ordered_json metrics();
+    /// Empty unless the options ask for it.
+    std::string traceJson() const;
+
+private:
+    /// What is read back from the GPU is some frames late; so long must nothing happen.
+    static constexpr int kQuietFrames = 3;
+    using Clock = std::chrono::steady_clock;
+
+    bool open();
+    bool openArchive();
+    bool openContext();
+    bool setScene(bool rootRequired);
+    bool setScheduler();
+    void observe(Scheduler& scheduler);
+    void setStartView();
+    void advanceTime();
+    void placeCamera();
+    void clear();
+    void followGround();
+    void countQuietFrame(bool moved);
+
+    const Registry& registry_;
+    const PlayerOptions options_;
+    // In the order of construction; what is below uses what is above.
+    Diagnostics diagnostics_;
+    Metrics metrics_;
+    Trace trace_;
+    std::atomic<int> tileTasks_ = 0; ///< of the current frame
+    std::unique_ptr<Library> library_;
+    std::unique_ptr<GlContext> context_;
+    std::unique_ptr<ProgramBindings> bindings_;
+    std::unique_ptr<RenderTarget> target_;
+    std::shared_ptr<Scheduler> ownScheduler_; ///< of archives without one
+    std::unique_ptr<ResourceManager> resources_;
+    std::unique_ptr<SceneManager> scene_;
+    PlayerSettings settings_;
+    std::unique_ptr<TerrainViewController> controller_;
+
+    Clock::time_point start_{};
+    double time_ = 0, elapsed_ = 0; ///< seconds
+    int frames_ = 0;
+    int quietFrames_ = 0;
+    View lastView_;
+    double lastGround_ = 0;
+};
+
+} // namespace terrane

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/run.h"
+
+#include "app/player.h"
+#include "app/script_runner.h"
+#include "core/files.h"
+#include "core/image.h"
+
+#include <chrono>
+#include <istream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+
+namespace terrane {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Tells how far a long run is, every other second after the first.
+class Progress {
+public:
+    explicit Progress(std::ostream& err)
+        : err_(err) {}
+
+    void tell(int frame, int frames) {
+        const Clock::time_point now = Clock::now();
+        if (now < next_) return;
+        next_ = now + std::chrono::seconds(2);
+        err_ << "frame " << frame;
+        if (frames >= 0) err_ << " of " << frames;
+        err_ << std::endl;
+    }
+
+private:
+    std::ostream& err_;
+    Clock::time_point next_ = Clock::now() + std::chrono::seconds(1);
+};
+
+bool isInteractive(const RunOptions& options) {
+    return options.script == "-";
+}
+
+bool drawFrames(Player& player, int frames, std::ostream& err) {
+    Progress progress(err);
+    for (int i = 0; i < (frames < 0 ? kMostFrames : frames); ++i) {
+        if (frames < 0 && player.complete()) break;
+        if (!player.frame()) return false;
+        progress.tell(i + 1, frames);
+    }
+    if (frames < 0 && !player.complete()) {
+        err << "the picture is not complete after " << kMostFrames << " frames\n";
+        return false;
+    }
+    return true;
+}
+
+/// Runs all lines, also after one that failed, so that one run tells everything.
+bool runScript(Player& player, const RunOptions& options, std::ostream& err) {
+    const auto text = readFile(options.script);
+    if (!text) {
+        err << "can't read the script " << shownPath(options.script) << "\n";
+        return false;
+    }
+    const std::vector<ScriptLine> lines = parseScript(*text);
+    bool good = true;
+    const auto tell = [&](const ScriptLine& line, const std::string& problem) {
+        if (problem.empty()) return;
+        good = false;
+        err << shownPath(options.script) << ":" << line.number << ": error: " << problem << "\n"
+            << "    " << line.text << "\n";
+    };
+    for (const ScriptLine& line : lines)
+        tell(line, line.problem);
+    if (!good) return false; // a script that can't be understood is not run in part
+    ScriptRunner runner(player, {.script = options.script.parent_path()});
+    for (const ScriptLine& line : lines)
+        tell(line, runner.run(line));
+    return good;
+}
+
+/// Whoever wrote the lines judges the answers: a failed one is no failure of the run.
+void runInteractively(Player& player, const RunStreams& streams) {
+    ScriptRunner runner(player, {});
+    std::string text;
+    for (int number = 1; std::getline(streams.in, text); ++number) {
+        const auto line = parseScriptLine(text, number);
+        std::string problem = line ? runner.run(*line) : std::string();
+        for (char& c : problem) {
+            if (c == '\n') c = ' '; // one line, one answer
+        }
+        streams.out << (problem.empty() ? "ok" : "error: " + problem) << std::endl;
+    }
+}
+
+bool write(const fs::path& path, const std::string& text, std::ostream& err) {
+    if (path.empty() || writeFile(path, text)) return true;
+    err << "can't write " << shownPath(path) << "\n";
+    return false;
+}
+
+bool writeResults(Player& player, const RunOptions& options, std::ostream& err) {
+    bool good = true;
+    if (!options.screenshot.empty() && !writePng(options.screenshot, player.capture())) {
+        err << "can't write " << shownPath(options.screenshot) << "\n";
+        good = false;
+    }
+    if (!options.metrics.empty())
+        good &= write(options.metrics, player.metrics().dump(2) + "\n", err);
+    good &= write(options.trace, player.traceJson(), err);
+    return good;
+}
+
+} // namespace
+
+int run(const Registry& registry, const RunOptions& options, const RunStreams& streams) {
+    PlayerOptions playerOptions = options.player;
+    playerOptions.recordFrames = !options.metrics.empty() || !options.script.empty();
+    playerOptions.trace = !options.trace.empty();
+    Player player(registry, playerOptions);
+    player.diagnostics().onReport(
+        [&](const Diagnostic& diagnostic) { streams.err << toString(diagnostic) << std::flush; });
+    bool good = player.load();
+    if (good && isInteractive(options))
+        runInteractively(player, streams);
+    else if (good && !options.script.empty())
+        good = runScript(player, options, streams.err);
+    else if (good)
+        good = drawFrames(player, options.frames, streams.err);
+    if (player.frames() > 0) good &= writeResults(player, options, streams.err);
+    if (!options.player.keepGoing) good &= player.diagnostics().errors() == 0;
+    return good ? 0 : 1;
+}
+
+} // namespace terrane

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/options.h"
+
+#include <filesystem>
+#include <iosfwd>
+
+namespace terrane {
+
+class Registry;
+
+/// A headless run from start to end: what `terrane play --headless` does.
+struct RunOptions {
+    PlayerOptions player;
+    int frames = -1; ///< negative: until the picture is complete; ignored with a script
+    std::filesystem::path script; ///< "-" reads lines as they arrive and answers each
+    std::filesystem::path screenshot, metrics, trace; ///< empty: not written
+};
+
+/// What it talks to: lines of an interactive script, its answers, and messages for people.
+struct RunStreams {
+    std::istream& in;
+    std::ostream& out;
+    std::ostream& err;
+};
+
+/// The exit status: 0 fine, 1 the archive or the run failed.
+int run(const Registry& registry, const RunOptions& options, const RunStreams& streams);
+
+} // namespace terrane

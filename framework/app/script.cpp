@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/script.h"
+
+#include "app/options.h"
+#include "core/text.h"
+
+#include <utility>
+
+namespace terrane {
+
+namespace {
+
+/// The words of a line, taken one after the other.
+class Words {
+public:
+    explicit Words(std::vector<std::string> words)
+        : words_(std::move(words)) {}
+
+    bool empty() const { return next_ == words_.size(); }
+    std::optional<std::string> word() {
+        if (empty()) return std::nullopt;
+        return words_[next_++];
+    }
+    bool literal(std::string_view text) {
+        if (empty() || words_[next_] != text) return false;
+        ++next_;
+        return true;
+    }
+    std::optional<double> real() {
+        const auto text = word();
+        if (!text) return std::nullopt;
+        const auto number = parseReal(*text);
+        if (!number || number->length != text->size()) return std::nullopt;
+        return number->value;
+    }
+    std::optional<int> count() {
+        const auto text = word();
+        if (!text) return std::nullopt;
+        const auto number = parseInt(*text);
+        if (!number || number->length != text->size() || number->value < 0) return std::nullopt;
+        return number->value;
+    }
+    std::optional<View> view() {
+        const auto text = word();
+        return text ? parseView(*text) : std::nullopt;
+    }
+    std::optional<Comparison> comparison() {
+        static constexpr std::pair<std::string_view, Comparison> kWords[] = {
+            {"==", Comparison::equal},         {"=", Comparison::equal},
+            {"!=", Comparison::notEqual},      {"<", Comparison::less},
+            {"<=", Comparison::lessOrEqual},   {">", Comparison::greater},
+            {">=", Comparison::greaterOrEqual}};
+        for (const auto& [text, comparison] : kWords) {
+            if (literal(text)) return comparison;
+        }
+        return std::nullopt;
+    }
+    void rest() { next_ = words_.size(); }
+
+private:
+    std::vector<std::string> words_;
+    std::size_t next_ = 0;
+};
+
+bool isSpace(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// Nothing when a quote is not closed.
+std::optional<std::vector<std::string>> wordsOf(std::string_view text) {
+    std::vector<std::string> words;
+    std::size_t i = 0;
+    while (true) {
+        while (i < text.size() && isSpace(text[i]))
+            ++i;
+        if (i == text.size()) return words;
+        std::string word;
+        if (text[i] == '"') {
+            const std::size_t end = text.find('"', i + 1);
+            if (end == std::string_view::npos) return std::nullopt;
+            word = text.substr(i + 1, end - i - 1);
+            i = end + 1;
+        } else {
+            while (i < text.size() && !isSpace(text[i]))
+                word += text[i++];
+        }
+        words.push_back(std::move(word));
+    }
+}
+
+using Parsed = std::optional<ScriptCommand>;
+
+Parsed parseCamera(Words& words) {
+    const auto from = words.view();
+    if (!from) return std::nullopt;
+    CameraCommand command{*from, std::nullopt, 0};
+    if (words.empty()) return command;
+    if (!words.literal("to")) return std::nullopt;
+    command.to = words.view();
+    if (!command.to || !words.literal("in")) return std::nullopt;
+    const auto frames = words.count();
+    if (!frames || *frames < 1 || !words.literal("frames")) return std::nullopt;
+    command.frames = *frames;
+    return command;
+}
+
+Parsed parseFrames(Words& words) {
+    const auto count = words.count();
+    if (!count) return std::nullopt;
+    return FramesCommand{*count};
+}
+
+Parsed parseWait(Words& words) {
+    if (!words.literal("tiles")) return std::nullopt;
+    if (words.empty()) return WaitCommand{kMostFrames};
+    const auto frames = words.count();
+    if (!frames) return std::nullopt;
+    return WaitCommand{*frames};
+}
+
+template <class Command>
+Parsed parseName(Words& words) {
+    const auto name = words.word();
+    if (!name) return std::nullopt;
+    return Command{*name};
+}
+
+template <class Command>
+Parsed parseNothing(Words&) {
+    return Command{};
+}
+
+Parsed parseTiles(Words& words) {
+    const auto producer = words.word();
+    const auto comparison = words.comparison();
+    const auto count = words.real();
+    if (!producer || !comparison || !count) return std::nullopt;
+    return ExpectTilesCommand{*producer, *comparison, *count};
+}
+
+Parsed parseHeight(Words& words) {
+    const auto x = words.real(), y = words.real(), z = words.real(), tolerance = words.real();
+    if (!x || !y || !z || !tolerance) return std::nullopt;
+    return ExpectHeightCommand{*x, *y, *z, *tolerance};
+}
+
+Parsed parseImage(Words& words) {
+    const auto file = words.word();
+    if (!file) return std::nullopt;
+    ExpectImageCommand command{*file, std::nullopt};
+    if (words.empty()) return command;
+    const std::string text = *words.word();
+    const auto number = parseReal(text);
+    if (!number || text.substr(number->length) != "%") return std::nullopt;
+    command.percent = number->value;
+    return command;
+}
+
+Parsed parseDiagnostic(Words& words) {
+    const auto code = words.word(), place = words.word();
+    if (!code || !place) return std::nullopt;
+    return ExpectDiagnosticCommand{*code, *place};
+}
+
+Parsed parseMetric(Words& words) {
+    const auto pointer = words.word();
+    const auto comparison = words.comparison();
+    const auto value = words.real();
+    if (!pointer || !pointer->starts_with('/') || !comparison || !value) return std::nullopt;
+    // Times differ from run to run; nothing may depend on them.
+    if (pointer->ends_with("ms") || pointer->find("_ms/") != std::string::npos) return std::nullopt;
+    return ExpectMetricCommand{*pointer, *comparison, *value};
+}
+
+struct Rule {
+    std::string_view name;
+    std::string_view usage;
+    Parsed (*parse)(Words&);
+};
+
+constexpr Rule kExpectations[] = {
+    {"tiles", "expect tiles PRODUCER OP N", parseTiles},
+    {"height", "expect height X Y Z TOLERANCE", parseHeight},
+    {"image", "expect image FILE [PIXELS%]", parseImage},
+    {"diagnostic", "expect diagnostic CODE FILE:LINE:COL", parseDiagnostic},
+    {"metric", "expect metric /POINTER OP N (counts only, never times)", parseMetric},
+    {"no-errors", "expect no-errors", parseNothing<ExpectNoErrorsCommand>},
+};
+
+constexpr Rule kCommands[] = {
+    {"camera", "camera X0,Y0,THETA,PHI,D [to X0,Y0,THETA,PHI,D in N frames]", parseCamera},
+    {"frames", "frames N", parseFrames},
+    {"wait", "wait tiles [MAXFRAMES]", parseWait},
+    {"screenshot", "screenshot FILE", parseName<ScreenshotCommand>},
+    {"mark", "mark", parseNothing<MarkCommand>},
+    {"archive", "archive PATH", parseName<ArchiveCommand>},
+    {"needs", "needs PATH", parseName<NeedsCommand>},
+};
+
+constexpr Rule kUnbuilt[] = {
+    {"set", "set RESOURCE.ATTRIBUTE VALUE", nullptr},
+    {"reload", "reload", nullptr},
+    {"key", "key NAME [down|up]", nullptr},
+    {"mouse", "mouse move X Y, mouse down|up BUTTON", nullptr},
+    {"wheel", "wheel N", nullptr},
+    {"text", "text STRING", nullptr},
+};
+
+template <std::size_t N>
+const Rule* find(const Rule (&rules)[N], std::string_view name) {
+    for (const Rule& rule : rules) {
+        if (rule.name == name) return &rule;
+    }
+    return nullptr;
+}
+
+template <std::size_t N>
+void addNames(const Rule (&rules)[N], std::vector<std::string>& names) {
+    for (const Rule& rule : rules)
+        names.emplace_back(rule.name);
+}
+
+std::string unknown(const std::string& what, const std::string& name,
+                    const std::vector<std::string>& names) {
+    const std::string near = nearestName(name, names);
+    return "unknown " + what + " '" + name + "'; " +
+           (near.empty() ? "expected " + listOfNames(names) : "did you mean '" + near + "'?");
+}
+
+void apply(const Rule& rule, Words& words, ScriptLine& line) {
+    line.command = rule.parse(words);
+    if (line.command && words.empty()) return;
+    line.command.reset();
+    line.problem = "expected: " + std::string(rule.usage);
+}
+
+void parseExpect(Words& words, ScriptLine& line) {
+    std::vector<std::string> names;
+    addNames(kExpectations, names);
+    const auto what = words.word();
+    if (!what) {
+        line.problem = "expected after 'expect': " + listOfNames(names);
+    } else if (const Rule* rule = find(kExpectations, *what)) {
+        apply(*rule, words, line);
+    } else {
+        line.problem = unknown("expectation", *what, names);
+    }
+}
+
+} // namespace
+
+bool holds(double left, Comparison comparison, double right) {
+    switch (comparison) {
+    case Comparison::equal:
+        return left == right;
+    case Comparison::notEqual:
+        return left != right;
+    case Comparison::less:
+        return left < right;
+    case Comparison::lessOrEqual:
+        return left <= right;
+    case Comparison::greater:
+        return left > right;
+    case Comparison::greaterOrEqual:
+        return left >= right;
+    }
+    return false;
+}
+
+std::optional<ScriptLine> parseScriptLine(std::string_view text, int number) {
+    ScriptLine line{number, std::string(text), std::nullopt, {}};
+    const auto all = wordsOf(text);
+    if (!all) {
+        line.problem = "a quote is not closed";
+        return line;
+    }
+    if (all->empty() || all->front().starts_with('#')) return std::nullopt;
+    Words words(*all);
+    const std::string name = *words.word();
+    if (name == "expect") {
+        parseExpect(words, line);
+    } else if (const Rule* rule = find(kCommands, name)) {
+        apply(*rule, words, line);
+    } else if (find(kUnbuilt, name)) {
+        line.command = UnbuiltCommand{name};
+    } else {
+        std::vector<std::string> names{"expect"};
+        addNames(kCommands, names);
+        addNames(kUnbuilt, names);
+        line.problem = unknown("command", name, names);
+    }
+    return line;
+}
+
+std::vector<ScriptLine> parseScript(std::string_view text) {
+    std::vector<ScriptLine> lines;
+    int number = 0;
+    for (const std::string_view piece : split(text, '\n')) {
+        if (auto line = parseScriptLine(piece, ++number)) lines.push_back(std::move(*line));
+    }
+    return lines;
+}
+
+std::string scriptUsage() {
+    std::string text;
+    for (const Rule& rule : kCommands)
+        text += "  " + std::string(rule.usage) + "\n";
+    for (const Rule& rule : kExpectations)
+        text += "  " + std::string(rule.usage) + "\n";
+    for (const Rule& rule : kUnbuilt)
+        text += "  " + std::string(rule.usage) + " (not built yet)\n";
+    return text;
+}
+
+} // namespace terrane

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/script.h"
+#include "core/source.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace terrane {
+
+class Player;
+
+/// Where the file names of a script lead.
+struct ScriptFolders {
+    std::filesystem::path script;  ///< what `expect image` and `expect diagnostic` name
+    std::filesystem::path output;  ///< where `screenshot` writes
+    std::filesystem::path failure; ///< where actual and difference pictures go; empty: nowhere
+    bool updatePictures = false;   ///< `expect image` writes the picture instead of comparing it
+};
+
+/// Runs the commands of a script on a loaded player.
+class ScriptRunner {
+public:
+    ScriptRunner(Player& player, ScriptFolders folders)
+        : player_(player)
+        , folders_(std::move(folders)) {}
+
+    /// Empty when the line did what it says; else why not.
+    std::string run(const ScriptLine& line);
+
+    /// Diagnostics that the script expected and that were reported.
+    const std::vector<ExpectDiagnosticCommand>& expectedDiagnostics() const { return expected_; }
+
+private:
+    std::string run(const CameraCommand& command);
+    std::string run(const FramesCommand& command);
+    std::string run(const WaitCommand& command);
+    std::string run(const ScreenshotCommand& command);
+    std::string run(const MarkCommand& command);
+    std::string run(const ArchiveCommand& command);
+    std::string run(const NeedsCommand& command);
+    std::string run(const UnbuiltCommand& command);
+    std::string run(const ExpectTilesCommand& command);
+    std::string run(const ExpectHeightCommand& command);
+    std::string run(const ExpectImageCommand& command);
+    std::string run(const ExpectDiagnosticCommand& command);
+    std::string run(const ExpectMetricCommand& command);
+    std::string run(const ExpectNoErrorsCommand& command);
+    std::string draw(int frames);
+
+    Player& player_;
+    const ScriptFolders folders_;
+    std::vector<ExpectDiagnosticCommand> expected_;
+};
+
+/// The place of a diagnostic as scripts write it: "file:line:col" with the file relative to a
+/// folder; "-" without a place.
+std::string placeInScript(const Place& place, const std::filesystem::path& folder);
+
+} // namespace terrane

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "allocation_counter.h"
+#include "app/check.h"
+#include "app/fixture_pool.h"
+#include "app/register_types.h"
+#include "app/run.h"
+#include "core/files.h"
+#include "new_archive.h"
+#include "plugins/standard_plugins.h"
+#include "resource/registry.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+using namespace terrane;
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+
+constexpr const char* kExamples = R"(Examples:
+  terrane play archives/mountains --headless --screenshot mountains.png
+  terrane play archives/mountains --headless --frames 300 --script flight.txt --metrics m.json
+  terrane check archives/mountains
+  terrane test tests/fixtures archives
+
+'terrane play --help' tells the options of a subcommand.
+Exit status: 0 fine, 1 the archive or the run failed, 2 wrong usage.)";
+
+const char* const kScripts = R"(A script has one command a line:
+  camera X0,Y0,THETA,PHI,D [to X0,Y0,THETA,PHI,D in N frames]
+  frames N      wait tiles [MAXFRAMES]      screenshot FILE      mark
+  expect tiles PRODUCER OP N                expect image FILE [PIXELS%]
+  expect diagnostic CODE FILE:LINE:COL      expect metric /POINTER OP N
+  expect no-errors
+Angles are in degrees, lengths in metres.)";
+
+/// What the command line says.
+struct Arguments {
+    RunOptions run;
+    std::vector<std::string> archives, paths;
+    std::string archive, headless, size, view, plugin, logLevel = "info";
+    bool realTime = false, json = false, strict = false, update = false;
+    int samples = 1;
+    std::string name;
+};
+
+CLI::Validator validSize() {
+    return {[](std::string& text) {
+                return parseSize(text) ? "" : "'" + text + "' is no size such as 1024x768";
+            },
+            "WxH"};
+}
+
+CLI::Validator validView() {
+    return {[](std::string& text) {
+                return parseView(text) ? ""
+                                       : "'" + text + "' is no view such as 0,0,60,0,5000: " +
+                                             "x0,y0,theta,phi,d in metres and degrees, d above 0";
+            },
+            "x0,y0,theta,phi,d"};
+}
+
+std::vector<fs::path> toPaths(const std::vector<std::string>& texts) {
+    return {texts.begin(), texts.end()};
+}
+
+void addCommon(CLI::App& command, Arguments& a) {
+    command.add_option("--path", a.paths, "Another folder for names (repeatable)")
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    command.add_option("--plugin", a.plugin, "A plugin to load (not built yet)")->type_name("FILE");
+    command.add_option("--log-level", a.logLevel, "How much is told")
+        ->check(CLI::IsMember({"debug", "info", "warning", "error"}));
+}
+
+void addPlay(CLI::App& app, Arguments& a) {
+    CLI::App* play = app.add_subcommand("play", "Open an archive: draw what it describes");
+    play->footer(kScripts);
+    play->add_option("archive", a.archive, "An .xml file, or the folder of an archive")->required();
+    play->add_flag("--headless{osmesa}", a.headless, "Draw without a window (=osmesa, =egl)")
+        ->check(CLI::IsMember({"osmesa", "egl"}));
+    play->add_option("--size", a.size, "Size of the picture [1024x768]")->check(validSize());
+    play->add_option("--frames", a.run.frames,
+                     "Frames to draw; without it, until the picture is complete, at most 1000")
+        ->check(CLI::Range(1, 1000000000));
+    CLI::Option* step =
+        play->add_option("--time-step", a.run.player.timeStep, "Seconds from frame to frame [1/60]")
+            ->check(CLI::Range(1e-6, 1e6));
+    play->add_flag("--real-time", a.realTime, "Follow the clock instead")->excludes(step);
+    play->add_option("--camera", a.view, "Where to look from")->check(validView());
+    play->add_option("--screenshot", a.run.screenshot, "Write the last frame (PNG)")
+        ->type_name("FILE");
+    play->add_option("--script", a.run.script, "Run the lines of a file; '-' answers each line")
+        ->type_name("FILE");
+    play->add_option("--metrics", a.run.metrics, "Write counts and times (JSON)")
+        ->type_name("FILE");
+    play->add_option("--trace", a.run.trace, "Write when each task ran (opens in Perfetto)")
+        ->type_name("FILE");
+    play->add_flag("--keep-going", a.run.player.keepGoing, "Draw what can be drawn despite errors");
+    play->add_option("--samples", a.samples, "Samples of a pixel [1] (more are not built yet)")
+        ->check(CLI::Range(1, 32));
+    play->add_option("--max-anisotropy", a.run.player.maxAnisotropy,
+                     "Cap on anisotropic filtering [1 on a software renderer]")
+        ->check(CLI::Range(1, 16));
+    addCommon(*play, a);
+}
+
+void addOthers(CLI::App& app, Arguments& a) {
+    CLI::App* check = app.add_subcommand("check", "Load and validate everything, draw nothing");
+    check->add_option("archive", a.archives, "Archives")->required();
+    check->add_flag("--json", a.json, "Tell the problems as JSON");
+    check->add_flag("--strict", a.strict, "Warnings are failures, too");
+    addCommon(*check, a);
+
+    CLI::App* test = app.add_subcommand("test", "Run archive fixtures");
+    test->add_option("path", a.archives, "Fixtures (folders with a script), or folders of them")
+        ->required();
+    test->add_flag("--update", a.update, "Write the expected pictures anew; then look at them");
+    addCommon(*test, a);
+
+    CLI::App* fresh = app.add_subcommand("new", "Make a working archive to start from");
+    fresh->add_option("name", a.name, "The folder to make")->required();
+    app.add_subcommand("schema", "The schema of archives (not built yet)")->allow_extras();
+    app.add_subcommand("pack", "Pack an archive into one file (not built yet)")->allow_extras();
+}
+
+int fail(int status, const std::string& message) {
+    std::cerr << "terrane: " << message << "\n";
+    return status;
+}
+
+int play(const Registry& registry, Arguments& a) {
+    if (a.headless.empty()) {
+        return fail(kWrongUsage, "there is no window yet; add --headless, such as\n"
+                                 "  terrane play " +
+                                     a.archive + " --headless --screenshot picture.png");
+    }
+    if (a.headless == "egl") return fail(kWrongUsage, "--headless=egl is not built yet");
+    if (a.samples > 1) return fail(kWrongUsage, "more than one sample is not built yet");
+    PlayerOptions& player = a.run.player;
+    player.archive = a.archive;
+    player.paths = toPaths(a.paths);
+    player.allocations = countedAllocations;
+    if (const auto size = parseSize(a.size)) {
+        player.width = size->width;
+        player.height = size->height;
+    }
+    if (!a.view.empty()) player.view = parseView(a.view);
+    if (a.realTime) player.timeStep = 0;
+    return run(registry, a.run, {std::cin, std::cout, std::cerr});
+}
+
+int check(const Registry& registry, const Arguments& a) {
+    std::vector<Diagnostic> all;
+    for (const std::string& archive : a.archives) {
+        std::vector<Diagnostic> found = checkArchive(registry, archive, toPaths(a.paths));
+        all.insert(all.end(), found.begin(), found.end());
+    }
+    sortByPlace(all);
+    const DiagnosticCounts counts = count(all);
+    if (a.json) {
+        std::cout << toJson(all) << "\n";
+    } else {
+        for (const Diagnostic& diagnostic : all)
+            std::cerr << toString(diagnostic);
+        std::cout << counts.toString() << "\n";
+    }
+    return counts.errors > 0 || (a.strict && counts.warnings > 0) ? kFailed : 0;
+}
+
+/// Pictures of failures go into a build folder if there is one here.
+fs::path reportFolder() {
+    std::error_code error;
+    if (fs::is_directory("build", error)) return fs::path("build") / "fixtures";
+    return fs::temp_directory_path(error) / "terrane-fixtures";
+}
+
+int test(const Registry& registry, const Arguments& a) {
+    FixtureOptions options{
+        .data = toPaths(a.paths), .output = reportFolder(), .updatePictures = a.update};
+    const char* const data = std::getenv("TERRANE_TEST_DATA");
+    options.data.push_back(data ? fs::path(data) : homeFolder() / ".." / "shared" / "data");
+    return testFixtures(registry, toPaths(a.archives), options, std::cout);
+}
+
+int dispatch(const CLI::App& app, Arguments& a) {
+    if (!a.plugin.empty()) return fail(kWrongUsage, "--plugin is not built yet");
+    for (const char* name : {"schema", "pack"}) {
+        if (app.got_subcommand(name))
+            return fail(kWrongUsage, "'" + std::string(name) + "' is not built yet");
+    }
+    if (app.got_subcommand("new")) return makeNewArchive(a.name, std::cout, std::cerr);
+    Registry registry;
+    registerStandardTypes(registry);
+    registerStandardPlugins(registry);
+    if (app.got_subcommand("play")) return play(registry, a);
+    if (app.got_subcommand("check")) return check(registry, a);
+    return test(registry, a);
+}
+
+} // namespace
+
+int main(int count, char** words) {
+    CLI::App app("Terrane: landscapes, from one valley to a whole planet, described by archives.",
+                 "terrane");
+    app.footer(kExamples);
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "terrane " TERRANE_VERSION);
+    Arguments arguments;
+    addPlay(app, arguments);
+    addOthers(app, arguments);
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : kWrongUsage;
+    }
+    return dispatch(app, arguments);
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "new_archive.h"
+
+#include "core/files.h"
+
+#include <filesystem>
+#include <ostream>
+
+namespace fs = std::filesystem;
+
+int makeNewArchive(const std::string& name, std::ostream& out, std::ostream& err) {
+    std::error_code error;
+    const fs::path example = terrane::homeFolder() / "archives" / "quadtree";
+    if (!fs::is_directory(example, error)) {
+        err << "terrane: can't find the example archives\n";
+        return 1;
+    }
+    if (fs::exists(name, error)) {
+        err << "terrane: '" << name << "' exists already\n";
+        return 1;
+    }
+    fs::create_directories(name, error);
+    for (const fs::directory_entry& entry : fs::directory_iterator(example, error)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".xml" && extension != ".glsl") continue; // no pictures, no tests
+        fs::copy_file(entry.path(), fs::path(name) / entry.path().filename(), error);
+        if (error) break;
+    }
+    if (error) {
+        err << "terrane: can't write " << name << ": " << error.message() << "\n";
+        return 1;
+    }
+    out << "Made " << name << ". Now try\n  terrane play " << name
+        << " --headless --screenshot picture.png\n";
+    return 0;
+}
