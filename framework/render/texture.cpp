@@ -123,6 +123,7 @@ Texture::Texture(Texture&& other) noexcept
     , format_(other.format_)
     , name_(std::exchange(other.name_, 0))
     , serial_(other.serial_)
+    , allocated_(other.allocated_)
     , fullChain_(other.fullChain_) {}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
@@ -132,6 +133,7 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     std::swap(format_, other.format_);
     std::swap(name_, other.name_);
     std::swap(serial_, other.serial_);
+    std::swap(allocated_, other.allocated_);
     std::swap(fullChain_, other.fullChain_);
     return *this;
 }
@@ -164,7 +166,10 @@ void Texture::create() {
         gl.TextureStorage3D(name_, d.levels, format_->storage, d.width, d.height, zCount());
         break;
     }
-    applySampling();
+    GLint immutable = 0;
+    gl.GetTextureParameteriv(name_, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
+    allocated_ = immutable != 0;
+    if (allocated_) applySampling();
 }
 
 void Texture::destroy() {

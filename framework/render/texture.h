@@ -79,6 +79,8 @@ public:
     TextureRegion region(int level = 0) const;
     const GlContext& context() const { return *context_; }
 
+    /// False when the driver had no memory for it; it can then only be destroyed.
+    bool allocated() const { return allocated_; }
     unsigned name() const { return name_; }
     /// Changes when the storage does: tells whether what was attached is still the same.
     std::uint64_t serial() const { return serial_; }
@@ -121,6 +123,7 @@ private:
     const InternalFormatInfo* format_;
     unsigned name_ = 0;
     std::uint64_t serial_ = 0;
+    bool allocated_ = false;
     bool fullChain_ = false; ///< levels follow the size when resized
 };
 

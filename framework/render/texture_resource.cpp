@@ -184,7 +184,11 @@ std::shared_ptr<Texture> make(T target, const TextureElement& d, const Geometry&
         context.diagnostics().error("bad-texture", d.place, problem);
         return nullptr;
     }
-    return std::make_shared<Texture>(gl, description, d.sampling());
+    auto texture = std::make_shared<Texture>(gl, description, d.sampling());
+    if (texture->allocated()) return texture;
+    context.diagnostics().error("out-of-memory", d.place, "the driver has no memory for it",
+                                "a smaller texture");
+    return nullptr;
 }
 
 std::shared_ptr<Texture> buildFromFile(T target, const TextureElement& d, BuildContext& context) {

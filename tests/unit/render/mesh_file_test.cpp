@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <random>
 #include <string>
 
 namespace terrane {
@@ -188,6 +189,37 @@ TEST_CASE("A mesh file cut off anywhere is refused, or is whole") {
         const auto mesh = parse(kTriangle.substr(0, length), diagnostics);
         CHECK(mesh.has_value() == (length > lastIndex));
         CHECK(diagnostics.errors() == (length > lastIndex ? 0 : 1));
+    }
+}
+
+TEST_CASE("Damaged mesh files are refused or read, never trusted") {
+    std::mt19937 random(1);
+    const std::string alphabet = "0123456789+-.eE \n\t\0xinfatrue";
+    for (int run = 0; run < 20000; ++run) {
+        std::string text = kTriangle;
+        for (int edits = 1 + int(random() % 4); edits > 0; --edits) {
+            const std::size_t at = random() % text.size();
+            switch (random() % 3) {
+            case 0:
+                text[at] = alphabet[random() % alphabet.size()];
+                break;
+            case 1:
+                text.insert(at, 1, alphabet[random() % alphabet.size()]);
+                break;
+            default:
+                text.erase(at, 1 + random() % 5);
+                break;
+            }
+            if (text.empty()) text = " ";
+        }
+        Diagnostics diagnostics;
+        const auto mesh = parse(text, diagnostics);
+        CAPTURE(text);
+        REQUIRE(mesh.has_value() == (diagnostics.errors() == 0));
+        if (!mesh) continue;
+        REQUIRE(mesh->vertices.size() == mesh->vertexCount * mesh->stride());
+        for (const auto index : mesh->indices)
+            REQUIRE(index < mesh->vertexCount);
     }
 }
 

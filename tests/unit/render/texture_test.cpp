@@ -278,6 +278,16 @@ TEST_CASE_FIXTURE(GlFixture, "Impossible textures are told apart before they are
     }
 }
 
+TEST_CASE_FIXTURE(GlFixture, "A texture that no memory can hold is told") {
+    const Texture texture(*context, {.target = TextureTarget::texture2DArray,
+                                     .format = InternalFormat::rgba32f,
+                                     .width = 16384,
+                                     .height = 16384,
+                                     .layers = 2048});
+    CHECK_FALSE(texture.allocated());
+    diagnostics.clear(); // the driver's own words
+}
+
 TEST_CASE("Formats are found by their words") {
     CHECK(findInternalFormat("RGBA8")->value == InternalFormat::rgba8);
     CHECK(findInternalFormat("R8_SNORM") == findInternalFormat("R8SNORM"));
