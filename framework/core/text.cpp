@@ -62,6 +62,22 @@ std::optional<ParsedNumber<T>> parseNumber(std::string_view text) {
     return result;
 }
 
+// One line, no control characters, and not longer than a terminal minds.
+std::string shown(std::string_view text) {
+    constexpr std::size_t kLongest = 120;
+    std::string result;
+    for (const char c : text.substr(0, kLongest)) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += byte < 0x20 || byte == 0x7f ? ' ' : c;
+    }
+    if (text.size() <= kLongest) return result;
+    // A character of several bytes is not cut in two.
+    while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xc0) == 0x80)
+        result.pop_back();
+    if (!result.empty() && static_cast<unsigned char>(result.back()) >= 0xc0) result.pop_back();
+    return result + "...";
+}
+
 } // namespace
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -107,19 +123,11 @@ std::string listOfNames(const std::vector<std::string>& names) {
 }
 
 std::string inQuotes(std::string_view text) {
-    // More than any sensible value has, and less than a terminal minds.
-    constexpr std::size_t kShown = 120;
-    std::string result = "'";
-    for (const char c : text.substr(0, kShown)) {
-        const auto byte = static_cast<unsigned char>(c);
-        result += byte < 0x20 || byte == 0x7f ? ' ' : c;
-    }
-    if (text.size() <= kShown) return result + "'";
-    // A character of several bytes is not cut in two.
-    while ((static_cast<unsigned char>(result.back()) & 0xc0) == 0x80)
-        result.pop_back();
-    if (static_cast<unsigned char>(result.back()) >= 0xc0) result.pop_back();
-    return result + "...'";
+    return "'" + shown(text) + "'";
+}
+
+std::string asTag(std::string_view name) {
+    return "<" + shown(name) + ">";
 }
 
 std::optional<ParsedNumber<int>> parseInt(std::string_view text) {

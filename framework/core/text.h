@@ -21,6 +21,8 @@ std::string listOfNames(const std::vector<std::string>& names);
 /// What an author wrote, as messages show it: in single quotes, on one line, without control
 /// characters, and shortened when it is very long.
 std::string inQuotes(std::string_view text);
+/// The same for the name of an element: "<name>".
+std::string asTag(std::string_view name);
 
 /// A number read from the start of a text, whatever the locale.
 template <class T>

@@ -256,7 +256,7 @@ void ResourceManager::checkUnused(const XmlElement& element) {
     if (!declaration) return;
     if (element.attribute("name").empty()) {
         diagnostics_.warning("unnamed-entry", element.place(),
-                             "<" + element.tag() + "> without a name is never used",
+                             asTag(element.tag()) + " without a name is never used",
                              "an attribute 'name'");
     }
     parseElement(element, *declaration, registry_, diagnostics_);
@@ -271,12 +271,6 @@ void ResourceManager::reportUnknown(const std::string& name, const Place& place)
                              .chain = chain()});
         return;
     }
-    std::vector<std::string> files;
-    for (const std::string& file : library_.searchPath().namesNear(name)) {
-        if (file.ends_with(".xml")) files.push_back(file.substr(0, file.size() - 4));
-    }
-    std::string nearest = nearestName(name, library_.names());
-    if (nearest.empty()) nearest = nearestName(name, files);
     const bool buffer = name.starts_with("renderbuffer");
     diagnostics_.report(
         {.code = "unknown-resource",
@@ -284,7 +278,7 @@ void ResourceManager::reportUnknown(const std::string& name, const Place& place)
          .message = "there is no resource " + inQuotes(name),
          .expected = buffer ? "renderbuffer-<size>-<internal format>"
                             : "an entry of the archive, or a file " + inQuotes(name + ".xml"),
-         .suggestion = std::move(nearest),
+         .suggestion = suggestName(name),
          .chain = chain()});
 }
 
@@ -307,17 +301,31 @@ void ResourceManager::reportMistyped(const RefBase& ref, const ResourceEntry& en
                          .place = ref.place,
                          .message = inQuotes(ref.name) + " is a " + entry.declaration->tag,
                          .expected = registry_.describeInterface(interface),
-                         .suggestion = nearestName(ref.name, entriesOf(interface)),
+                         .suggestion = suggestEntry(ref.name, interface),
                          .chain = chain()});
 }
 
-std::vector<std::string> ResourceManager::entriesOf(std::type_index interface) const {
+// An entry, or else a file.
+std::string ResourceManager::suggestName(const std::string& name) {
+    if (suggestionsLeft_-- <= 0) return {};
+    std::string nearest = nearestName(name, library_.names());
+    if (!nearest.empty()) return nearest;
+    std::vector<std::string> files;
+    for (const std::string& file : library_.searchPath().namesNear(name)) {
+        if (file.ends_with(".xml")) files.push_back(file.substr(0, file.size() - 4));
+    }
+    return nearestName(name, files);
+}
+
+// An entry that has the interface.
+std::string ResourceManager::suggestEntry(const std::string& name, std::type_index interface) {
+    if (suggestionsLeft_-- <= 0) return {};
     std::vector<std::string> names;
     for (const XmlElement& element : library_.entries()) {
         const ElementDeclaration* const declaration = registry_.find(element.tag());
         if (declaration && declaration->isA(interface)) names.push_back(element.attribute("name"));
     }
-    return names;
+    return nearestName(name, names);
 }
 
 std::vector<std::string> ResourceManager::chain() const {

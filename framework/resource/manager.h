@@ -69,7 +69,8 @@ private:
     void reportUnknown(const std::string& name, const Place& place);
     void reportCycle(const ResourceEntry& entry, const Place& place);
     void reportMistyped(const RefBase& ref, const ResourceEntry& entry, std::type_index interface);
-    std::vector<std::string> entriesOf(std::type_index interface) const;
+    std::string suggestName(const std::string& name);
+    std::string suggestEntry(const std::string& name, std::type_index interface);
     std::vector<std::string> chain() const;
     void forward(const Diagnostics& local);
     const ElementDeclaration* declarationOf(const XmlElement& element);
@@ -80,6 +81,9 @@ private:
     Services services_;
     std::map<std::string, std::unique_ptr<ResourceEntry>> entries_;
     std::vector<ResourceEntry*> built_; ///< in the order of creation
+    /// A search for the nearest name looks at every entry; an archive with more wrong names than
+    /// this has another problem.
+    int suggestionsLeft_ = 100;
     struct Loading {
         ResourceEntry* entry;
         Place neededAt;

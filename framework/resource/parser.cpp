@@ -28,7 +28,7 @@ public:
         result.valid &= readAttributes(element, declaration, keyed, *result.description);
         if (declaration.planned) {
             diagnostics_.warning("not-built-yet", element.place(),
-                                 "<" + element.tag() + "> has no effect yet");
+                                 asTag(element.tag()) + " has no effect yet");
         }
         if (!declaration.acceptsAnything) {
             warnText(element);
@@ -97,7 +97,7 @@ private:
         const Place place = element.textPlace();
         if (!place) return;
         diagnostics_.warning("text-ignored", place,
-                             "the text in <" + element.tag() + "> is ignored",
+                             "the text in " + asTag(element.tag()) + " is ignored",
                              "elements and comments");
     }
 
@@ -121,14 +121,14 @@ private:
         std::sort(names.begin(), names.end());
         diagnostics_.report({.code = "unknown-attribute",
                              .place = xml.namePlace,
-                             .message = "<" + tag + "> has no attribute " + inQuotes(xml.name),
+                             .message = asTag(tag) + " has no attribute " + inQuotes(xml.name),
                              .expected = names.empty() ? "no attribute" : listOfNames(names),
                              .suggestion = nearestName(xml.name, names)});
     }
 
     void missingAttribute(const XmlElement& element, const std::string& name) {
         diagnostics_.error("missing-attribute", element.place(),
-                           "<" + element.tag() + "> needs the attribute '" + name + "'");
+                           asTag(element.tag()) + " needs the attribute '" + name + "'");
     }
 
     bool checkRequired(const XmlElement& element, const ElementDeclaration& declaration,
@@ -208,7 +208,7 @@ private:
         if (!tags.empty()) expected = tags.size() <= kListed ? listOfNames(tags) : "";
         diagnostics_.report({.code = "unknown-element",
                              .place = child.place(),
-                             .message = "<" + child.tag() + "> can't stand in <" + parent + ">",
+                             .message = asTag(child.tag()) + " can't stand in " + asTag(parent),
                              .expected = std::move(expected),
                              .suggestion = nearestName(child.tag(), tags)});
     }
@@ -219,10 +219,10 @@ private:
         for (std::size_t i = 0; i < counts.size(); ++i) {
             const ChildRule& rule = declaration.childRules[i];
             if (counts[i] >= rule.atLeast && counts[i] <= rule.atMost) continue;
-            const std::string what = rule.element ? "<" + rule.element->tag + ">" : rule.summary;
+            const std::string what = rule.element ? asTag(rule.element->tag) : rule.summary;
             const bool few = counts[i] < rule.atLeast;
             diagnostics_.error(few ? "missing-element" : "too-many-elements", element.place(),
-                               "<" + element.tag() + "> has " + std::to_string(counts[i]) +
+                               asTag(element.tag()) + " has " + std::to_string(counts[i]) +
                                    " child element(s) for " + what,
                                few ? "at least " + std::to_string(rule.atLeast)
                                    : "at most " + std::to_string(rule.atMost));

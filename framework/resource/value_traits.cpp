@@ -101,7 +101,8 @@ bool readList(const AttributeText& text, const AttributeDeclaration& a, const ch
         walker.advance(piece.size() + 1 - blanks);
         if (piece.empty()) continue;
         T value{};
-        good &= readPiece(piece.substr(blanks), place, text, a, expected, parse, value, diagnostics);
+        good &=
+            readPiece(piece.substr(blanks), place, text, a, expected, parse, value, diagnostics);
         values.push_back(value);
     }
     return good;
@@ -204,7 +205,7 @@ int readWord(const AttributeText& text, const AttributeDeclaration& a, Diagnosti
     diagnostics.report({.severity = useDefault ? Severity::warning : Severity::error,
                         .code = "unknown-word",
                         .place = text.valuePlace,
-                        .message = "'" + text.text + "' is no value of '" + a.name + "'" +
+                        .message = inQuotes(text.text) + " is no value of '" + a.name + "'" +
                                    (useDefault ? ", and counts as '" + a.defaultText + "'" : ""),
                         .expected = listOfNames(a.words),
                         .suggestion = nearestName(text.text, a.words)});

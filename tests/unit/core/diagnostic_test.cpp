@@ -45,6 +45,23 @@ TEST_CASE("a diagnostic is printed as a compiler does") {
         {"tabs in front of the caret stay tabs",
          {.severity = Severity::note, .code = "c", .place = placeIn("\t\tx", 2), .message = "m"},
          "a.xml:1:3: note: m [c]\n    \t\tx\n    \t\t^\n"},
+        {"characters of several bytes are one column on the screen",
+         {.code = "c", .place = placeIn("\xc3\xa9\xe2\x82\xac x", 6), .message = "m"},
+         "a.xml:1:7: error: m [c]\n    \xc3\xa9\xe2\x82\xac x\n       ^\n"},
+        {"a carriage return is not shown",
+         {.code = "c", .place = placeIn("ab\r\ncd", 1), .message = "m"},
+         "a.xml:1:2: error: m [c]\n    ab\n     ^\n"},
+        {"what a terminal would act upon is not shown",
+         {.code = "c",
+          .place = placeIn(std::string("\x1b[2J\0\x7f"
+                                       "a",
+                                       7),
+                           6),
+          .message = "m"},
+         "a.xml:1:7: error: m [c]\n     [2J  a\n          ^\n"},
+        {"a byte order mark belongs to no line",
+         {.code = "c", .place = placeIn("\xef\xbb\xbf<a", 4), .message = "m"},
+         "a.xml:1:2: error: m [c]\n    <a\n     ^\n"},
         {"the end of an empty file",
          {.code = "c", .place = placeIn("", 5), .message = "m"},
          "a.xml:1:1: error: m [c]\n    \n    ^\n"},
@@ -63,6 +80,34 @@ TEST_CASE("a very long line is shown around the caret") {
     const std::size_t caret = text.find('^');
     const std::size_t caretLine = text.rfind('\n', caret) + 1;
     CHECK(text[shown + (caret - caretLine)] == 'X');
+}
+
+TEST_CASE("a long line is not cut inside a character") {
+    for (std::size_t shift = 0; shift < 3; ++shift) {
+        std::string line(shift, 'a');
+        for (int i = 0; i < 500; ++i)
+            line += "\xe2\x82\xac";
+        const std::string text =
+            toString({.code = "c", .place = placeIn(line, shift + 3 * 250), .message = "m"});
+        const std::size_t start = text.find('\n') + 5;
+        const std::string shown = text.substr(start, text.find('\n', start) - start);
+        CHECK(shown.size() % 3 == 0);
+        CHECK(shown.starts_with("\xe2\x82\xac"));
+        // The caret has as many characters before it as are shown there.
+        const std::size_t caret = text.find('^') - (text.rfind('\n', text.find('^')) + 5);
+        CHECK(caret < shown.size() / 3);
+    }
+}
+
+TEST_CASE("ten thousand diagnostics are kept and told apart") {
+    Diagnostics diagnostics;
+    const Place place = placeIn(std::string(20000, 'a'), 0);
+    for (int round = 0; round < 2; ++round) {
+        for (std::size_t i = 0; i < 10000; ++i)
+            diagnostics.error("c", {place.file, i}, "message");
+    }
+    CHECK(diagnostics.errors() == 10000);
+    CHECK(diagnostics.all()[9999].place.offset == 9999);
 }
 
 TEST_CASE("a diagnostic met again is told once") {

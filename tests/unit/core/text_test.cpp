@@ -59,6 +59,18 @@ TEST_CASE("names are listed as in a sentence") {
     CHECK(listOfNames({"a", "b", "c"}) == "'a', 'b' or 'c'");
 }
 
+TEST_CASE("what an author wrote is quoted on one short line") {
+    CHECK(inQuotes("") == "''");
+    CHECK(inQuotes("a b") == "'a b'");
+    CHECK(inQuotes("a\nb\x1b[2J\tc") == "'a b [2J c'");
+    CHECK(inQuotes("\xc3\xa9") == "'\xc3\xa9'");
+    CHECK(inQuotes(std::string(120, 'a')) == "'" + std::string(120, 'a') + "'");
+    CHECK(inQuotes(std::string(121, 'a')) == "'" + std::string(120, 'a') + "...'");
+    CHECK(inQuotes(std::string(119, 'a') + "\xc3\xa9") == "'" + std::string(119, 'a') + "...'");
+    CHECK(asTag("node") == "<node>");
+    CHECK(asTag(std::string(121, 'a')).size() == 125);
+}
+
 TEST_CASE("an integer is read from the start of a text") {
     struct Row {
         const char* text;

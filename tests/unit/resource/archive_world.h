@@ -5,9 +5,24 @@
 #include "resource/temporary_folder.h"
 #include "resource/test_types.h"
 
+#include <doctest/doctest.h>
 #include <memory>
 #include <string>
 #include <vector>
+
+namespace doctest {
+
+template <>
+struct StringMaker<std::vector<std::string>> {
+    static String convert(const std::vector<std::string>& lines) {
+        std::string text;
+        for (const std::string& line : lines)
+            text += (text.empty() ? "" : ", ") + line;
+        return text.c_str();
+    }
+};
+
+} // namespace doctest
 
 namespace terrane::test {
 

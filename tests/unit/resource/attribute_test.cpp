@@ -29,7 +29,7 @@ struct AppleReading {
 
 TEST_CASE("a wrong attribute is told where it stands") {
     struct Row {
-        const char* name;
+        std::string name;
         const char* attributes; // '^' marks the places
         std::vector<std::string> codes;
         bool built;
@@ -244,7 +244,7 @@ TEST_CASE("a wrong name gets the nearest right one") {
         {R"(friend="aa")", "unknown-resource", "a", "'aa.xml'"},
     };
     for (const Row& row : rows) {
-        CAPTURE(row.attributes);
+        CAPTURE(std::string(row.attributes));
         const AppleReading apple(row.attributes);
         const Diagnostic* const d = apple.world.find(row.code);
         REQUIRE(d);
@@ -259,7 +259,7 @@ TEST_CASE("a declaration prints what it reads") {
     const ElementDeclaration* const apple = registry.find("apple");
     REQUIRE(apple);
     struct Row {
-        const char* name;
+        std::string name;
         const char* text;
         const char* byDefault;
     };

@@ -8,7 +8,7 @@ using namespace terrane::test;
 
 TEST_CASE("a wrong element is told where it stands") {
     struct Row {
-        const char* name;
+        std::string name;
         const char* entries; // '^' marks the places
         std::vector<std::string> codes;
     };
@@ -157,7 +157,7 @@ TEST_CASE("wrong elements get the nearest right one") {
         {R"(<shelf name="s"><baskte id="b"/></shelf>)", "basket", ""},
     };
     for (const Row& row : rows) {
-        CAPTURE(row.entries);
+        CAPTURE(std::string(row.entries));
         ArchiveWorld world;
         world.load(row.entries);
         const Diagnostic* const d = world.find("unknown-element");
