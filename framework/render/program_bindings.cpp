@@ -27,7 +27,10 @@ ProgramBindings::ProgramBindings(const GlContext& c, unsigned textures, unsigned
     : context(c)
     , blocks(c)
     , textureUnits(textures)
-    , uniformBindings(uniforms) {}
+    , uniformBindings(uniforms) {
+    // As many threads as the driver sees fit, for what is compiled and linked without being asked.
+    if (c.gl().KHR_parallel_shader_compile) c.gl().MaxShaderCompilerThreadsKHR(~0U);
+}
 
 const ShaderObject& ProgramBindings::passThroughVertex() {
     if (!passThroughVertex_) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/glsl_legacy.h"
 
+#include "render/glsl_log.h"
+
 #include <doctest/doctest.h>
+
+#include <random>
 
 namespace terrane {
 
@@ -150,6 +154,35 @@ TEST_CASE("Any bytes can be rewritten") {
           "gl_PositionIn[[[[]", "layout(((((packed"}) {
         CAPTURE(hostile);
         rewrite(hostile, 430);
+    }
+}
+
+TEST_CASE("Random GLSL is rewritten and taken apart without harm") {
+    const char* const words[] = {"#",      "extension", "GL_EXT_gpu_shader4",
+                                 "line",   "define",    "filter",
+                                 "sample", "layout",    "gl_PositionIn",
+                                 "(",      ")",         "[",
+                                 "]",      "shadow2D",  "texture2DArray",
+                                 "/*",     "*/",        "//",
+                                 "\\\n",   "\n",        " ",
+                                 ";",      "{",         "varying",
+                                 "1.5",    "include",   "\"x\"",
+                                 ".",      "buffer",    "\r\n"};
+    std::minstd_rand random(7);
+    for (int round = 0; round < 3000; ++round) {
+        std::string source;
+        for (unsigned i = 0; i < random() % 30; ++i)
+            source += words[random() % std::size(words)];
+        CAPTURE(source);
+        std::vector<LegacyChange> changes;
+        const GlslText text =
+            rewriteLegacyGlsl(textOf(source), 430, ShaderStage::vertex, {}, changes);
+        const auto offset = offsetOf({.line = int(random() % 5),
+                                      .column = int(random() % 20),
+                                      .text = "`filter' undeclared"},
+                                     text);
+        if (offset && !text.text().empty()) CHECK(text.place(*offset).offset <= source.size());
+        if (changes.empty()) CHECK(text.text() == source);
     }
 }
 
