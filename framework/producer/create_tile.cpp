@@ -12,7 +12,10 @@ namespace terrane {
 
 bool TileInputs::need(TileProducer& producer, const TileId& tile) {
     Tile* const input = producer.getTile(tile, owner_.deadline());
-    if (!input) return false;
+    if (!input) {
+        owner_.home_->cache().blame(producer.cache());
+        return false;
+    }
     tiles_.push_back(input);
     producer.cache().addHolder(owner_.shared_from_this());
     return true;

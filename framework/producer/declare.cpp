@@ -6,6 +6,7 @@
 #include "producer/object_tile_storage.h"
 #include "producer/tile_cache.h"
 #include "producer/tile_producer.h"
+#include "render/sampling_attributes.h"
 #include "resource/build_context.h"
 #include "resource/manager.h"
 #include "resource/registry.h"
@@ -15,59 +16,14 @@ namespace terrane {
 
 namespace {
 
-const Words<MinFilter> kMinFilterWords{{"NEAREST", MinFilter::nearest},
-                                       {"LINEAR", MinFilter::linear},
-                                       {"NEAREST_MIPMAP_NEAREST", MinFilter::nearestMipmapNearest},
-                                       {"NEAREST_MIPMAP_LINEAR", MinFilter::nearestMipmapLinear},
-                                       {"LINEAR_MIPMAP_NEAREST", MinFilter::linearMipmapNearest},
-                                       {"LINEAR_MIPMAP_LINEAR", MinFilter::linearMipmapLinear}};
-const Words<MagFilter> kMagFilterWords{{"NEAREST", MagFilter::nearest},
-                                       {"LINEAR", MagFilter::linear}};
-
-struct GpuTileStorageDescription : ElementDescription {
+struct GpuTileStorageDescription : ElementDescription, SamplingAttributes {
     Attr<int> tileSize = 1;
     Attr<int> nTiles = 1;
     Attr<InternalFormat> internalformat = InternalFormat::rgba8;
     Attr<TransferFormat> format = TransferFormat::rgba;
     Attr<TransferType> type = TransferType::u8;
-    Attr<MinFilter> min = MinFilter::nearest;
-    Attr<MagFilter> mag = MagFilter::linear;
-    Attr<float> minLod = -1000;
-    Attr<float> maxLod = 1000;
-    Attr<float> minLevel = 0;
-    Attr<float> maxLevel = 1000;
-    Attr<std::string> swizzle = "rgba";
-    Attr<float> anisotropy = 1;
     Attr<bool> tileMap = false;
 };
-
-constexpr std::string_view kSwizzleLetters = "rgba01";
-
-Swizzle swizzleOf(char letter) {
-    constexpr Swizzle values[] = {Swizzle::red,   Swizzle::green, Swizzle::blue,
-                                  Swizzle::alpha, Swizzle::zero,  Swizzle::one};
-    return values[kSwizzleLetters.find(letter)];
-}
-
-void checkSwizzle(const GpuTileStorageDescription& d, Diagnostics& diagnostics) {
-    const std::string& text = *d.swizzle;
-    if (text.size() == 4 && text.find_first_not_of(kSwizzleLetters) == std::string::npos) return;
-    diagnostics.error("wrong-kind", d.swizzle.place, "'" + text + "' is no swizzle",
-                      "four of the letters r, g, b, a, 0, 1, such as 'rgba'");
-}
-
-SamplingParameters samplingOf(const GpuTileStorageDescription& d) {
-    SamplingParameters s{.min = d.min,
-                         .mag = d.mag,
-                         .minLod = d.minLod,
-                         .maxLod = d.maxLod,
-                         .minLevel = static_cast<int>(*d.minLevel),
-                         .maxLevel = static_cast<int>(*d.maxLevel),
-                         .anisotropy = d.anisotropy};
-    for (std::size_t i = 0; i < s.swizzle.size(); ++i)
-        s.swizzle[i] = swizzleOf((*d.swizzle)[i]);
-    return s;
-}
 
 std::shared_ptr<GpuTileStorage> buildGpuTileStorage(const GpuTileStorageDescription& d,
                                                     BuildContext& context) {
@@ -76,7 +32,7 @@ std::shared_ptr<GpuTileStorage> buildGpuTileStorage(const GpuTileStorageDescript
                                                   .tiles = d.nTiles,
                                                   .format = d.internalformat,
                                                   .transfer = {d.format, d.type},
-                                                  .sampling = samplingOf(d),
+                                                  .sampling = d.sampling(),
                                                   .tileMap = d.tileMap};
     const int maxLayers = gl.maxArrayLayers();
     const std::string problem = GpuTileStorage::problem(gl, description, maxLayers);
@@ -91,10 +47,9 @@ std::shared_ptr<GpuTileStorage> buildGpuTileStorage(const GpuTileStorageDescript
 
 void declareGpuTileStorage(Registry& registry) {
     using D = GpuTileStorageDescription;
-    registry
-        .resource<GpuTileStorage, D, TileStorage>(
-            "gpuTileStorage", "Raster tiles on the GPU, as layers of 2D array textures.")
-        .attribute("tileSize", &D::tileSize, "edge of a tile, borders included")
+    auto storage = registry.resource<GpuTileStorage, D, TileStorage>(
+        "gpuTileStorage", "Raster tiles on the GPU, as layers of 2D array textures.");
+    storage.attribute("tileSize", &D::tileSize, "edge of a tile, borders included")
         .unit("pixels")
         .required()
         .atLeast(1)
@@ -107,28 +62,13 @@ void declareGpuTileStorage(Registry& registry) {
         .attribute("format", &D::format, "channels of uploaded pixels", transferFormatWords())
         .required()
         .attribute("type", &D::type, "type of a channel of uploaded pixels", transferTypeWords())
-        .required()
-        .attribute("min", &D::min,
-                   "filter for tiles that are drawn smaller; the mipmap ones keep mipmaps",
-                   kMinFilterWords)
-        .attribute("mag", &D::mag, "filter for tiles that are drawn larger", kMagFilterWords)
-        .attribute("minLod", &D::minLod, "lower limit of the level of detail")
-        .alias("minLOD")
-        .attribute("maxLod", &D::maxLod, "upper limit of the level of detail")
-        .alias("maxLOD")
-        .attribute("minLevel", &D::minLevel, "first mipmap level in use")
-        .atLeast(0)
-        .attribute("maxLevel", &D::maxLevel, "last mipmap level in use")
-        .atLeast(0)
-        .atMost(1000)
-        .attribute("swizzle", &D::swizzle,
-                   "what shaders read as red, green, blue and alpha: four of rgba01")
-        .attribute("anisotropy", &D::anisotropy, "maximum anisotropy of the filter")
-        .atLeast(1)
+        .required();
+    declareFilters(storage);
+    storage
         .attribute("tileMap", &D::tileMap,
                    "keep the map that the shader function textureQuadtree needs; all tiles must "
                    "fit in one array texture")
-        .check(checkSwizzle)
+        .check([](const D& d, Diagnostics& diagnostics) { d.checkSampling(diagnostics); })
         .build(buildGpuTileStorage);
 }
 

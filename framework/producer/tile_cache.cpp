@@ -169,6 +169,11 @@ Tile* TileCache::refuse(const TileKey& key) {
     return nullptr;
 }
 
+void TileCache::blame(TileCache& other) {
+    if (&other == this) return;
+    culprit_ = other.needed_ > 0 ? other.weak_from_this() : other.culprit_;
+}
+
 void TileCache::use(Tile& tile) {
     if (tile.users_++ == 0) unlink(tile);
 }
@@ -259,16 +264,22 @@ int TileCache::room() {
 }
 
 TileCache::Shortage TileCache::shortage() const {
-    Shortage result{.slots = storage_->capacity(), .needed = needed_};
-    if (needed_ > 0)
-        result.message = "cache '" + name_ + "' has " + std::to_string(result.slots) +
-                         " slots; this view needs at least " + std::to_string(needed_);
+    const auto other = culprit_.lock();
+    const TileCache& full = needed_ == 0 && other ? *other : *this;
+    Shortage result{.slots = full.storage_->capacity(), .needed = full.needed_};
+    if (result.needed > 0)
+        result.message = "cache '" + full.name_ + "' has " + std::to_string(result.slots) +
+                         " slots; this view needs at least " + std::to_string(result.needed);
     return result;
 }
 
 void TileCache::clearShortage() {
     refused_.clear();
     needed_ = 0;
+    if (const auto culprit = culprit_.lock()) {
+        culprit_.reset();
+        culprit->clearShortage();
+    }
 }
 
 } // namespace terrane

@@ -60,7 +60,7 @@ private:
 ///
 /// Owner (GL) thread only: tasks on workers get their slot and inputs beforehand, and what they
 /// held is released here, when it is needed or when statistics are asked for.
-class TileCache : public Resource {
+class TileCache : public Resource, public std::enable_shared_from_this<TileCache> {
 public:
     struct Statistics {
         int capacity = 0; ///< slots of the storage
@@ -106,9 +106,10 @@ public:
     /// Tiles without users plus free slots: what may be asked for without a refusal.
     int room();
 
-    /// Why getTile returned null, since the last clearShortage().
+    /// Why getTile returned null, since the last clearShortage(): this cache was full, or another
+    /// one with tiles that its own are made from.
     struct Shortage {
-        int slots = 0;  ///< of this cache
+        int slots = 0;  ///< of the full cache
         int needed = 0; ///< at least so many tiles are needed at once; 0 when nothing was refused
         /// "cache 'x' has 64 slots; this view needs at least 93"
         std::string message;
@@ -133,6 +134,7 @@ private:
     TileSlot* evict();
     void remember(const TileKey& key, const std::shared_ptr<CreateTile>& task);
     Tile* refuse(const TileKey& key);
+    void blame(TileCache& other);
 
     void use(Tile& tile);
     void unuse(Tile& tile);
@@ -165,6 +167,7 @@ private:
     Statistics counts_;
     std::unordered_set<TileKey, TileKeyHash> refused_; ///< since clearShortage()
     int needed_ = 0;
+    std::weak_ptr<TileCache> culprit_; ///< the other cache that was full
 };
 
 } // namespace terrane

@@ -46,9 +46,11 @@ vec4 parent(ivec2 texel) {
 }
 
 // Even texels lie on the second of four parent texels; odd ones half way between the middle two,
-// on the cubic through all four.
-vec4 weights(int texel) {
-    return texel % 2 == 0 ? vec4(0.0, 1.0, 0.0, 0.0) : vec4(-1.0, 9.0, 9.0, -1.0) / 16.0;
+// on the cubic through all four: weights (-1, 9, 9, -1)/16. Written as the mean of these two and a
+// small correction, since rounding errors of large elevations add up from level to level.
+float between(vec4 z, int texel) {
+    float middle = 0.5 * (z[1] + z[2]);
+    return texel % 2 == 0 ? z[1] : middle + 0.125 * (middle - 0.5 * (z[0] + z[3]));
 }
 
 // Parent elevations: rows of four.
@@ -61,7 +63,10 @@ mat4 parentBlock(ivec2 texel) {
 }
 
 float upsampled(mat4 z, ivec2 texel) {
-    return dot(weights(texel.x) * z, weights(texel.y));
+    vec4 column;
+    for (int j = 0; j < 4; ++j)
+        column[j] = between(z[j], texel.x);
+    return between(column, texel.y);
 }
 
 #ifdef CUSTOM_RELIEF

@@ -198,7 +198,11 @@ TEST_CASE_FIXTURE(ProducerFixture, "A tile whose inputs find no room is refused 
     REQUIRE(b);
     CHECK(normals->getTile(tileOf(3)) == nullptr);
     CHECK(inputs->shortage().needed == 3);
+    // What the full cache is called is known where the tile was asked for.
+    CHECK(outputs->shortage().message == "cache 'inputs' has 2 slots; this view needs at least 3");
+    outputs->clearShortage();
     CHECK(outputs->shortage().needed == 0);
+    CHECK(inputs->shortage().needed == 0);
     CHECK(outputs->statistics().used == 2);
     CHECK(outputs->storage().freeSlots() == 8);
     CHECK(normals->findTile(tileOf(3), true) == nullptr);
