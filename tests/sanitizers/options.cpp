@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linked into every program of a sanitizer build, so that it behaves the same however it is started.
-// A suppression names a library of Mesa or LLVM, never a function of ours.
+// Linked into every program of a sanitizer build, so that it behaves the same however it is
+// started. A suppression names a library of Mesa or LLVM, never a function of ours.
 
 extern "C" {
 
 const char* __asan_default_options() {
-    return "detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1";
+    return "detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:"
+           "allocator_may_return_null=1";
 }
 
-const char* __ubsan_default_options() { return "print_stacktrace=1"; }
+const char* __ubsan_default_options() {
+    return "print_stacktrace=1";
+}
+
+const char* __lsan_default_options() {
+    return "print_suppressions=0";
+}
 
 // Mesa keeps per-process tables, and LLVM its compiled code, until the process ends.
 const char* __lsan_default_suppressions() {
@@ -17,7 +24,9 @@ const char* __lsan_default_suppressions() {
            "leak:libLLVM\n";
 }
 
-const char* __tsan_default_options() { return "second_deadlock_stack=1"; }
+const char* __tsan_default_options() {
+    return "second_deadlock_stack=1";
+}
 
 // Neither library is instrumented, so what happens inside it can't be judged.
 const char* __tsan_default_suppressions() {
