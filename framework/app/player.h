@@ -66,6 +66,8 @@ public:
     /// view nor ground moved.
     bool complete() const { return quietFrames_ >= kQuietFrames; }
     int frames() const { return frames_; }
+    /// Of the last frame, seconds since the first one.
+    double time() const { return time_; }
 
     /// The last frame; RGB. Waits for OpenGL.
     Image capture();

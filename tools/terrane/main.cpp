@@ -5,11 +5,13 @@
 #include "app/register_types.h"
 #include "app/run.h"
 #include "core/files.h"
+#include "core/text.h"
 #include "new_archive.h"
 #include "plugins/standard_plugins.h"
 #include "resource/registry.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -136,6 +138,16 @@ int fail(int status, const std::string& message) {
     return status;
 }
 
+/// What CLI11 does not say: that a word is no subcommand. Empty when it is one.
+std::string unknownSubcommand(const std::string& word) {
+    const std::vector<std::string> names{"play", "check", "test", "new", "schema", "pack"};
+    const bool known = std::find(names.begin(), names.end(), word) != names.end();
+    if (known || word.starts_with('-')) return {};
+    const std::string near = nearestName(word, names);
+    return "there is no subcommand '" + word + "'; " +
+           (near.empty() ? "try --help" : "did you mean '" + near + "'?");
+}
+
 int play(const Registry& registry, Arguments& a) {
     if (a.headless.empty()) {
         return fail(kWrongUsage, "there is no window yet; add --headless, such as\n"
@@ -216,6 +228,8 @@ int main(int count, char** words) {
     Arguments arguments;
     addPlay(app, arguments);
     addOthers(app, arguments);
+    const std::string unknown = count > 1 ? unknownSubcommand(words[1]) : std::string();
+    if (!unknown.empty()) return fail(kWrongUsage, unknown);
     try {
         app.parse(count, words);
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "archive_folder.h"
+
+#include "core/files.h"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+
+using namespace terrane;
+
+namespace {
+
+/// The terrane program, run as people do.
+class Terrane : public ArchiveFolder {
+public:
+    struct Result {
+        int status = -1;
+        std::string out, err;
+    };
+
+    /// @param words a shell's command line; %  stands for this folder
+    Result run(std::string words, const std::string& input = {}) {
+        for (std::size_t at; (at = words.find('%')) != std::string::npos;)
+            words.replace(at, 1, path().string());
+        write("input", input);
+        const std::string command = std::string(TERRANE_PROGRAM) + " " + words + " < " +
+                                    (*this / "input").string() + " > " + (*this / "out").string() +
+                                    " 2> " + (*this / "err").string();
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(*this / "out").value_or(""),
+                readFile(*this / "err").value_or("")};
+    }
+};
+
+bool contains(const std::string& text, const std::string& part) {
+    INFO("text: ", text);
+    const bool found = text.find(part) != std::string::npos;
+    CHECK(found);
+    return found;
+}
+
+} // namespace
+
+TEST_CASE_FIXTURE(Terrane, "wrong usage exits with 2 and says why") {
+    writeColour("1.0, 1.0, 1.0");
+    struct Row {
+        const char* words;
+        const char* message;
+    };
+    const Row rows[] = {
+        {"", "subcommand"},
+        {"paly x", "there is no subcommand 'paly'"},
+        {"play", "archive is required"},
+        {"play %", "add --headless"},
+        {"play % --headless --frames many", "--frames"},
+        {"play % --headless --frames 0", "--frames"},
+        {"play % --headless --size 3", "no size such as 1024x768"},
+        {"play % --headless --camera 1,2,3", "no view such as"},
+        {"play % --headless --bogus", "--bogus"},
+        {"play % --headless=cave", "cave"},
+        {"play % --headless --time-step 1 --real-time", "--time-step excludes --real-time"},
+        {"play % --headless --plugin x.so", "not built yet"},
+        {"play % --headless --samples 4", "not built yet"},
+        {"check", "archive is required"},
+        {"schema", "not built yet"},
+        {"pack % out.zip", "not built yet"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.words);
+        const Result result = run(row.words);
+        CHECK(result.status == 2);
+        contains(result.err, row.message);
+        CHECK(result.out == "");
+    }
+    CHECK(run("test %/nothing").status == 2);
+}
+
+TEST_CASE_FIXTURE(Terrane, "help and version are no failures") {
+    contains(run("--help").out, "terrane play archives/mountains --headless");
+    contains(run("play --help").out, "--screenshot");
+    contains(run("--version").out, "terrane ");
+    for (const char* words : {"--help", "play --help", "check --help", "test --help", "--version"})
+        CHECK(run(words).status == 0);
+}
+
+TEST_CASE_FIXTURE(Terrane, "play writes what it is told to") {
+    writeColour("1.0, 0.5, 0.0");
+    const std::string play = "play % --headless --size 64x48 ";
+    const Result result = run(play + "--frames 2 --screenshot %/a.png --metrics %/m.json "
+                                     "--trace %/t.json");
+    CHECK(result.status == 0);
+    CHECK(result.err == "");
+    contains(readFile(*this / "m.json").value_or(""), "\"peak_rss_bytes\"");
+    contains(readFile(*this / "t.json").value_or(""), "\"traceEvents\"");
+    CHECK(run(play + "--frames 2 --screenshot %/b.png").status == 0);
+    const auto a = readFile(*this / "a.png"), b = readFile(*this / "b.png");
+    REQUIRE(a);
+    CHECK(a == b); // bit for bit
+    CHECK(run(play + "--screenshot %/nowhere/a.png").status == 1);
+    contains(run(play + "--screenshot %/nowhere/a.png").err, "can't write");
+}
+
+TEST_CASE_FIXTURE(Terrane, "a script that fails makes the run fail") {
+    writeColour("1.0, 0.5, 0.0");
+    const std::string play = "play % --headless --size 64x48 --script %/script";
+    write("script", "frames 1\nexpect no-errors\n");
+    CHECK(run(play).status == 0);
+    write("script", "frames 1\nexpect tiles x == 1\nmark\nwheel 1\n");
+    const Result failed = run(play);
+    CHECK(failed.status == 1);
+    contains(failed.err, "script:2: error: there is no producer 'x'\n    expect tiles x == 1\n");
+    contains(failed.err, "script:4: error: 'wheel' is not built yet");
+    write("script", "frames 1\nexpct\n");
+    contains(run(play).err, "script:2: error: unknown command 'expct'");
+    CHECK(run("play % --headless --script %/none").status == 1);
+}
+
+TEST_CASE_FIXTURE(Terrane, "an interactive script answers each line") {
+    writeColour("1.0, 0.5, 0.0");
+    const Result result = run("play % --headless --size 64x48 --script -",
+                              "frames 2\nexpect metric /frames/1/tiles == 0\nnonsense\n"
+                              "expect metric /size/0 == 65\nexpect no-errors\n");
+    CHECK(result.status == 0);
+    CHECK(result.out.starts_with("ok\nok\nerror: unknown command 'nonsense'"));
+    CHECK(result.out.ends_with("\nerror: '/size/0' is 64\nok\n"));
+}
+
+TEST_CASE_FIXTURE(Terrane, "errors of an archive go to standard error and exit with 1") {
+    writeColour("1.0, 0.5, 0.0");
+    std::string scene = kScene;
+    scene.insert(scene.find("        <drawMesh"), "        <drawMesh name=\"nothing\"/>\n");
+    write("archive.xml", scene);
+    const Result played = run("play % --headless --screenshot %/a.png");
+    CHECK(played.status == 1);
+    contains(played.err, "archive.xml:5:");
+    CHECK(!std::filesystem::exists(*this / "a.png"));
+    CHECK(run("play % --headless --keep-going --screenshot %/a.png").status == 0);
+    CHECK(std::filesystem::exists(*this / "a.png"));
+
+    const Result checked = run("check %");
+    CHECK(checked.status == 1);
+    CHECK(checked.out == "1 error, 0 warnings\n");
+    contains(checked.err, "archive.xml:5:");
+    CHECK(run("check --json %").status == 1);
+    contains(run("check --json %").out, "\"line\": 5");
+    CHECK(run("play %/nowhere --headless").status == 1);
+}
+
+TEST_CASE_FIXTURE(Terrane, "warnings fail a strict check only") {
+    write("archive.xml", "<archive><tweakBar name=\"a\"/></archive>");
+    CHECK(run("check %").status == 0);
+    CHECK(run("check --strict %").status == 1);
+    CHECK(run("check %").out == "0 errors, 1 warning\n");
+}
+
+TEST_CASE_FIXTURE(Terrane, "fixtures run in processes of their own and are reported") {
+    writeColour("0.0, 1.0, 0.0", "f/good");
+    write("f/good/script", "frames 1\nexpect no-errors\n");
+    writeColour("0.0, 1.0, 0.0", "f/bad");
+    write("f/bad/script", "frames 1\nexpect tiles x == 1\n");
+    writeColour("0.0, 1.0, 0.0", "f/missing");
+    write("f/missing/script", "needs no/such/data\n");
+    const Result result = run("test %/f");
+    CHECK(result.status == 1);
+    contains(result.out, "passed  ");
+    contains(result.out, "FAILED  ");
+    contains(result.out, "script:2: expect tiles x == 1\n        there is no producer 'x'\n");
+    contains(result.out, "skipped ");
+    contains(result.out, "    needs no/such/data\n");
+    CHECK(result.out.ends_with("1 passed, 1 failed, 1 skipped\n"));
+    CHECK(run("test %/f/good %/f/missing").status == 0);
+}
+
+TEST_CASE_FIXTURE(Terrane, "a new archive works at once") {
+    CHECK(run("new %/mine").status == 0);
+    CHECK(run("check %/mine").status == 0);
+    CHECK(run("play %/mine --headless --size 64x48 --frames 1").status == 0);
+    CHECK(run("new %/mine").status == 1); // nothing is overwritten
+}
