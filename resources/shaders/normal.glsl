@@ -36,22 +36,32 @@ float elevation(ivec2 texel) {
     return texelFetch(elevationSampler, ivec3(first + texel, int(elevationOSL.w)), 0).z;
 }
 
-// Where a texel is, relative to some point near the quad.
-vec3 position(ivec2 texel) {
-    float h = elevation(texel);
-    vec2 uv = vec2(texel) / (tileSDF.x - 1.0);
+// Where a texel is on a sphere, relative to some point below or above the quad. The corners' unit
+// vectors v, interpolated with weights a to u, are shorter than 1 by 1-k, where
+// k^2 = |u|^2 = 1 - sum a_i a_j |v_i - v_j|^2: so computed, the curvature of the smallest quad is
+// there even in floats. Of heights only differences to h0 count, for the same reason.
+vec3 onSphere(vec2 uv, float h, float h0) {
     float R = deform.w;
-    if (R == 0.0) return vec3(uv * deform.z, h);
-
     vec4 uvUV = vec4(uv, vec2(1.0) - uv);
     vec4 alpha = uvUV.zxzx * uvUV.wwyy;
-    vec4 alphaPrime = alpha * patchCornerNorms / dot(alpha, patchCornerNorms);
-    vec4 up = patchVerticals * alphaPrime;
-    // The interpolated vertical is shorter than 1 between corners; not for small quads, where the
-    // difference would only be noise.
-    float k = mix(length(up.xyz), 1.0, smoothstep(R / 32.0, R / 64.0, deform.z));
-    float hPrime = (h + R * (1.0 - k)) / k;
-    return (patchCorners * alphaPrime).xyz + hPrime * up.xyz;
+    vec4 a = alpha * patchCornerNorms / dot(alpha, patchCornerNorms);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = i + 1; j < 4; ++j) {
+            vec3 edge = (patchCorners[i] - patchCorners[j]).xyz / R;
+            sum += a[i] * a[j] * dot(edge, edge);
+        }
+    }
+    float k = sqrt(1.0 - sum);
+    float oneMinusK = sum / (1.0 + k);
+    float height = (h - h0 + (R + h0) * oneMinusK) / k;
+    return (1.0 + h0 / R) * (patchCorners * a).xyz + height * (patchVerticals * a).xyz;
+}
+
+vec3 position(ivec2 texel, float h0) {
+    float h = elevation(texel);
+    vec2 uv = vec2(texel) / (tileSDF.x - 1.0);
+    return deform.w == 0.0 ? vec3(uv * deform.z, h - h0) : onSphere(uv, h, h0);
 }
 
 int floorDivide(int a, int b) {
@@ -81,8 +91,9 @@ vec2 coarseNormal(ivec2 texel) {
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    vec3 east = position(texel + ivec2(1, 0)) - position(texel - ivec2(1, 0));
-    vec3 north = position(texel + ivec2(0, 1)) - position(texel - ivec2(0, 1));
+    float h0 = elevation(texel);
+    vec3 east = position(texel + ivec2(1, 0), h0) - position(texel - ivec2(1, 0), h0);
+    vec3 north = position(texel + ivec2(0, 1), h0) - position(texel - ivec2(0, 1), h0);
     vec3 normal = normalize(worldToTangentFrame * cross(east, north));
     vec2 coarse = normalOSL.x < 0.0 ? normal.xy : coarseNormal(texel);
     data = vec4(normal.xy, tileSDF.z < 2.0 ? coarse : vec2(0.0));
