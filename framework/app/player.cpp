@@ -89,8 +89,7 @@ bool Player::openContext() {
 bool Player::setScene(bool rootRequired) {
     const Clock::time_point begin = Clock::now();
     // A file of resources for others has nothing to play and is fine for `check`.
-    const bool conventional = !settings_.hasPlayer;
-    if (conventional && !library_->find(settings_.root.name)) {
+    if (!settings_.rootGiven && !library_->find(settings_.root.name)) {
         if (!rootRequired) return false;
         diagnostics_.error("no-root", {}, "the archive has nothing to draw",
                            "a node '" + settings_.root.name + "', or <player root=\"...\"/>");
@@ -110,7 +109,7 @@ bool Player::setScene(bool rootRequired) {
 
 bool Player::setScheduler() {
     Scheduler* scheduler = nullptr;
-    if (!settings_.hasPlayer && !library_->find(settings_.scheduler.name)) {
+    if (!settings_.schedulerGiven && !library_->find(settings_.scheduler.name)) {
         ownScheduler_ = std::make_shared<MultithreadScheduler>();
         scheduler = ownScheduler_.get();
     } else {

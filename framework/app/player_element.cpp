@@ -8,6 +8,7 @@
 #include "scene/scene_node.h"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace terrane {
@@ -102,6 +103,7 @@ PlayerSettings readPlayerSettings(Library& library, const Registry& registry) {
     std::vector<std::shared_ptr<ElementDescription>> kept;
     Views views;
     Attr<std::string> wanted;
+    bool hasPlayer = false;
     for (const XmlElement& element : library.entries()) {
         const ElementDeclaration* declaration = registry.findTopLevel(element.tag());
         if (!declaration) continue;
@@ -111,12 +113,14 @@ PlayerSettings readPlayerSettings(Library& library, const Registry& registry) {
         if (const auto* view = child.as<ViewDescription>()) views.push_back(view);
         const auto* player = child.as<PlayerDescription>();
         if (!player) continue;
-        if (settings.hasPlayer) {
+        if (std::exchange(hasPlayer, true)) {
             diagnostics.warning("too-many-elements", player->place,
                                 "there is another <player> already", "one at most");
             continue;
         }
-        settings.hasPlayer = true;
+        // A default is placed at the element.
+        settings.rootGiven = player->root.place != player->place;
+        settings.schedulerGiven = player->scheduler.place != player->place;
         settings.root = player->root;
         settings.camera = player->camera;
         settings.method = player->method;

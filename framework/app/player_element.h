@@ -23,7 +23,7 @@ struct PlayerSettings {
     std::string method = "draw";
     Ref<Scheduler> scheduler{"defaultScheduler"};
     std::optional<View> view; ///< radians
-    bool hasPlayer = false;   ///< the archive has a <player>
+    bool rootGiven = false, schedulerGiven = false; ///< the archive names them itself
 };
 
 /// Allows <player root camera method scheduler ui view> and <view> at the top of archives.
