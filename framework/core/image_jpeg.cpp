@@ -102,7 +102,7 @@ std::optional<Image> decode(Decoder& decoder, std::string_view bytes, ImageProbl
     const int height = static_cast<int>(jpeg.output_height);
     const int channels = jpeg.output_components;
     // A progressive file is kept whole, as 16-bit coefficients, until its last scan.
-    const auto pixelSize = static_cast<std::uint64_t>(3 * channels);
+    const std::uint64_t pixelSize = 3 * static_cast<std::uint64_t>(channels);
     if (!imageSizeIsSane(width, height, pixelSize, bytes.size(), problem)) return std::nullopt;
     Image image = makeImage(width, height, channels);
     if (!readRows(decoder, image)) {
