@@ -30,29 +30,30 @@ vec3 gradientNoise(vec2 p) {
 }
 
 float rootElevation(vec2 p) {
-    vec2 bend = vec2(gradientNoise(p / 31000.0 + 7.3).x, gradientNoise(p / 31000.0 - 3.1).x);
-    p += 5200.0 * bend;
-    float height = 0.0, amplitude = 1.0;
-    vec2 slope = vec2(0.0);
+    p += 4600.0 * vec2(gradientNoise(p / 29000.0 + 7.3).x, gradientNoise(p / 29000.0 - 3.1).x);
     mat2 turn = mat2(0.8, 0.6, -0.6, 0.8);
-    vec2 q = p / 17000.0;
+    vec2 q = p / 15500.0, slope = vec2(0.0);
+    float height = 0.0, amplitude = 1.0, above = 1.0;
     for (int i = 0; i < 4; ++i) {
         vec3 n = gradientNoise(q);
-        float ridge = 1.0 - 2.0 * abs(n.x);
-        slope += n.yz * sign(n.x) * 0.5;
-        height += amplitude * ridge * ridge / (1.0 + dot(slope, slope));
-        amplitude *= 0.52;
-        q = turn * q * 2.03;
+        float ridge = max(1.0 - 2.1 * abs(n.x), 0.0);
+        ridge *= ridge;
+        slope += 0.35 * n.yz;
+        // Side ridges start high on the main ones.
+        height += amplitude * above * ridge / (1.0 + dot(slope, slope));
+        above = clamp(1.6 * ridge, 0.12, 1.0);
+        amplitude *= 0.56;
+        q = turn * q * 2.03 + 5.2;
     }
-    float massif = smoothstep(-0.42, 0.48, gradientNoise(p / 44000.0 + 1.7).x);
-    return -60.0 + 2700.0 * height * mix(0.16, 1.0, massif);
+    float massif = smoothstep(-0.55, 0.35, gradientNoise(p / 47000.0 + 1.7).x);
+    return 120.0 + 3300.0 * height * mix(0.3, 1.0, massif);
 }
 
 float noiseFactor(mat4 z, float metres) {
     vec2 slope = vec2(z[1][2] - z[1][0], z[2][1] - z[0][1]) / (2.0 * metres);
     float crest = (4.0 * z[1][1] - z[0][1] - z[2][1] - z[1][0] - z[1][2]) / (4.0 * metres);
     float steep = smoothstep(0.06, 0.75, length(slope));
-    return clamp(0.16 + 1.25 * steep + 0.9 * crest, 0.1, 1.6);
+    return clamp(0.12 + 1.1 * steep + 1.2 * crest, 0.08, 1.5);
 }
 
 #endif

@@ -1,5 +1,5 @@
-// One tile of normals from the elevations of the same quad, and with four channels those of the
-// parent's mesh. x and y in the tangent frame at the quad's centre. (terrain reference 2.6)
+// One tile of normals from the elevations of the same quad, and with four channels what its
+// parent shows there. x and y in the tangent frame at the quad's centre. (terrain reference 2.6)
 
 uniform vec3 tileSDF; // width of tiles in texels, texels per mesh cell, format: 0 = two signed
                       // normals, 1 = two unsigned, 2 = one signed, 3 = one unsigned
@@ -64,25 +64,19 @@ vec3 position(ivec2 texel, float h0) {
     return deform.w == 0.0 ? vec3(uv * deform.z, h - h0) : onSphere(uv, h, h0);
 }
 
-int floorDivide(int a, int b) {
-    return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
-
 vec2 decoded(vec2 n) {
     return tileSDF.z == 1.0 ? 2.0 * n - 1.0 : n;
 }
 
-vec2 parentNormal(ivec2 vertex) {
+vec2 parentNormal(ivec2 texel) {
     ivec2 first = ivec2(normalOSL.xy / normalOSL.z);
-    ivec3 texel = ivec3(first + int(tileSDF.y) * vertex, int(normalOSL.w));
-    return decoded(texelFetch(normalSampler, texel, 0).xy);
+    return decoded(texelFetch(normalSampler, ivec3(first + texel, int(normalOSL.w)), 0).xy);
 }
 
-// Between vertices of the parent's mesh, as coarse elevations are.
+// What the parent shows here, between its texels; the two are chosen as for coarse elevations. Not
+// between the vertices of its mesh: its shading is finer than that, and cells would show.
 vec2 coarseNormal(ivec2 texel) {
-    int g = int(tileSDF.y);
-    ivec2 v0 = ivec2(floorDivide(texel.x, 2 * g), floorDivide(texel.y, 2 * g));
-    ivec2 v1 = ivec2(floorDivide(texel.x + g, 2 * g), floorDivide(texel.y + g, 2 * g));
+    ivec2 v0 = texel / 2, v1 = (texel + 1) / 2;
     vec2 n = 0.5 * (parentNormal(ivec2(v1.x, v0.y)) + parentNormal(ivec2(v0.x, v1.y)));
     if (deform.w == 0.0) return n;
     float z = sqrt(max(1.0 - dot(n, n), 0.0));

@@ -129,7 +129,7 @@ TEST_CASE("Normals of a flat terrain are those of its elevations") {
     }
 }
 
-TEST_CASE("With four channels a normal tile has the normals of its parent's mesh, too") {
+TEST_CASE("With four channels a normal tile has what its parent shows there, too") {
     for (const Format& format : {kFormats[1], kFormats[3]}) {
         CAPTURE(std::string(format.name));
         TerrainFixture f;
@@ -145,12 +145,12 @@ TEST_CASE("With four channels a normal tile has the normals of its parent's mesh
             for (int k = 0; k < kWidth; ++k) {
                 for (int i = 0; i < kWidth; ++i) {
                     const auto vertex = [&](int x, int y) {
-                        const std::size_t row = static_cast<std::size_t>(dy + kCell * y);
-                        const glm::vec4& t = parent[row * kWidth + dx + kCell * x];
+                        const std::size_t row = static_cast<std::size_t>(dy + y);
+                        const glm::vec4& t = parent[row * kWidth + dx + x];
                         return decoded(format, t.x, t.y);
                     };
-                    const int x0 = i / (2 * kCell), x1 = (i + kCell) / (2 * kCell);
-                    const int y0 = k / (2 * kCell), y1 = (k + kCell) / (2 * kCell);
+                    const int x0 = i / 2, x1 = (i + 1) / 2;
+                    const int y0 = k / 2, y1 = (k + 1) / 2;
                     const glm::dvec2 expected = 0.5 * (vertex(x1, y0) + vertex(x0, y1));
                     const glm::vec4& t = texels[static_cast<std::size_t>(k) * kWidth + i];
                     const glm::dvec2 n = decoded(format, t.z, t.w);
