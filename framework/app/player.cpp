@@ -226,6 +226,10 @@ Image Player::capture() {
     return target_->captureOpaque();
 }
 
+bool Player::isSoftware() const {
+    return context_ && context_->isSoftware();
+}
+
 void Player::mark() {
     metrics_.mark(*resources_);
 }

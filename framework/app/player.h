@@ -75,6 +75,9 @@ public:
     /// Where the camera is. Free to change between frames.
     TerrainViewController& controller() { return *controller_; }
 
+    /// Whether the picture is drawn without a GPU.
+    bool isSoftware() const;
+
     Diagnostics& diagnostics() { return diagnostics_; }
     /// Only after load() or check(); null when the archive or the context could not be had.
     ResourceManager* resources() { return resources_.get(); }

@@ -22,7 +22,7 @@ struct PlayerSettings {
     std::string camera = "camera";
     std::string method = "draw";
     Ref<Scheduler> scheduler{"defaultScheduler"};
-    std::optional<View> view; ///< radians
+    std::optional<View> view;                       ///< radians
     bool rootGiven = false, schedulerGiven = false; ///< the archive names them itself
 };
 

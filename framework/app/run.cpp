@@ -23,12 +23,13 @@ using Clock = std::chrono::steady_clock;
 /// Tells how far a long run is, every other second after the first.
 class Progress {
 public:
-    explicit Progress(std::ostream& err)
-        : err_(err) {}
+    Progress(std::ostream& err, bool told)
+        : err_(err)
+        , told_(told) {}
 
     void tell(int frame, int frames) {
         const Clock::time_point now = Clock::now();
-        if (now < next_) return;
+        if (!told_ || now < next_) return;
         next_ = now + std::chrono::seconds(2);
         err_ << "frame " << frame;
         if (frames >= 0) err_ << " of " << frames;
@@ -37,15 +38,30 @@ public:
 
 private:
     std::ostream& err_;
+    const bool told_;
     Clock::time_point next_ = Clock::now() + std::chrono::seconds(1);
 };
+
+LogLevel levelOf(Severity severity) {
+    return severity == Severity::error     ? LogLevel::error
+           : severity == Severity::warning ? LogLevel::warning
+                                           : LogLevel::info;
+}
+
+/// Pictures look plainer without a GPU; nobody should have to guess why.
+void tellSoftware(Player& player, const RunOptions& options, std::ostream& err) {
+    const bool capped = player.isSoftware() && options.player.maxAnisotropy == 0;
+    if (capped && options.logLevel <= LogLevel::info)
+        err << "drawn in software, without anisotropic filtering (--max-anisotropy N overrides)\n";
+}
 
 bool isInteractive(const RunOptions& options) {
     return options.script == "-";
 }
 
-bool drawFrames(Player& player, int frames, std::ostream& err) {
-    Progress progress(err);
+bool drawFrames(Player& player, const RunOptions& options, std::ostream& err) {
+    const int frames = options.frames;
+    Progress progress(err, options.logLevel <= LogLevel::info);
     for (int i = 0; i < (frames < 0 ? kMostFrames : frames); ++i) {
         if (frames < 0 && player.complete()) break;
         if (!player.frame()) return false;
@@ -121,15 +137,18 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     playerOptions.recordFrames = !options.metrics.empty() || !options.script.empty();
     playerOptions.trace = !options.trace.empty();
     Player player(registry, playerOptions);
-    player.diagnostics().onReport(
-        [&](const Diagnostic& diagnostic) { streams.err << toString(diagnostic) << std::flush; });
+    player.diagnostics().onReport([&](const Diagnostic& diagnostic) {
+        if (levelOf(diagnostic.severity) >= options.logLevel)
+            streams.err << toString(diagnostic) << std::flush;
+    });
     bool good = player.load();
+    tellSoftware(player, options, streams.err);
     if (good && isInteractive(options))
         runInteractively(player, streams);
     else if (good && !options.script.empty())
         good = runScript(player, options, streams.err);
     else if (good)
-        good = drawFrames(player, options.frames, streams.err);
+        good = drawFrames(player, options, streams.err);
     if (player.frames() > 0) good &= writeResults(player, options, streams.err);
     if (!options.player.keepGoing) good &= player.diagnostics().errors() == 0;
     return good ? 0 : 1;

@@ -10,11 +10,15 @@ namespace terrane {
 
 class Registry;
 
+/// The least serious message that is told.
+enum class LogLevel { debug, info, warning, error };
+
 /// A headless run from start to end: what `terrane play --headless` does.
 struct RunOptions {
     PlayerOptions player;
     int frames = -1; ///< negative: until the picture is complete; ignored with a script
     std::filesystem::path script; ///< "-" reads lines as they arrive and answers each
+    LogLevel logLevel = LogLevel::info;
     std::filesystem::path screenshot, metrics, trace; ///< empty: not written
 };
 

@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -47,17 +48,23 @@ Angles are in degrees, lengths in metres.)";
 struct Arguments {
     RunOptions run;
     std::vector<std::string> archives, paths;
-    std::string archive, headless, size, view, plugin, logLevel = "info";
+    std::string archive, headless, size, view, plugin;
     bool realTime = false, json = false, strict = false, update = false;
     int samples = 1;
     std::string name;
 };
 
+/// A range that does not fill the help with itself.
+template <class T>
+CLI::Validator within(T least, T most) {
+    return CLI::Range(least, most).description("");
+}
+
 CLI::Validator validSize() {
     return {[](std::string& text) {
                 return parseSize(text) ? "" : "'" + text + "' is no size such as 1024x768";
             },
-            "WxH"};
+            ""};
 }
 
 CLI::Validator validView() {
@@ -66,7 +73,7 @@ CLI::Validator validView() {
                                        : "'" + text + "' is no view such as 0,0,60,0,5000: " +
                                              "x0,y0,theta,phi,d in metres and degrees, d above 0";
             },
-            "x0,y0,theta,phi,d"};
+            ""};
 }
 
 std::vector<fs::path> toPaths(const std::vector<std::string>& texts) {
@@ -78,8 +85,14 @@ void addCommon(CLI::App& command, Arguments& a) {
         ->type_name("DIR")
         ->allow_extra_args(false);
     command.add_option("--plugin", a.plugin, "A plugin to load (not built yet)")->type_name("FILE");
-    command.add_option("--log-level", a.logLevel, "How much is told")
-        ->check(CLI::IsMember({"debug", "info", "warning", "error"}));
+    static const std::map<std::string, LogLevel> kLevels{{"debug", LogLevel::debug},
+                                                         {"info", LogLevel::info},
+                                                         {"warning", LogLevel::warning},
+                                                         {"error", LogLevel::error}};
+    command
+        .add_option("--log-level", a.run.logLevel, "What is told: debug, info, warning or error")
+        ->transform(CLI::CheckedTransformer(kLevels).description(""))
+        ->type_name("LEVEL");
 }
 
 void addPlay(CLI::App& app, Arguments& a) {
@@ -87,16 +100,21 @@ void addPlay(CLI::App& app, Arguments& a) {
     play->footer(kScripts);
     play->add_option("archive", a.archive, "An .xml file, or the folder of an archive")->required();
     play->add_flag("--headless{osmesa}", a.headless, "Draw without a window (=osmesa, =egl)")
-        ->check(CLI::IsMember({"osmesa", "egl"}));
-    play->add_option("--size", a.size, "Size of the picture [1024x768]")->check(validSize());
+        ->check(CLI::IsMember({"osmesa", "egl"}).description(""));
+    play->add_option("--size", a.size, "Size of the picture [1024x768]")
+        ->type_name("WxH")
+        ->check(validSize());
     play->add_option("--frames", a.run.frames,
                      "Frames to draw; without it, until the picture is complete, at most 1000")
-        ->check(CLI::Range(1, 1000000000));
+        ->type_name("N")
+        ->check(within(1, 1000000000));
     CLI::Option* step =
         play->add_option("--time-step", a.run.player.timeStep, "Seconds from frame to frame [1/60]")
-            ->check(CLI::Range(1e-6, 1e6));
-    play->add_flag("--real-time", a.realTime, "Follow the clock instead")->excludes(step);
-    play->add_option("--camera", a.view, "Where to look from")->check(validView());
+            ->type_name("SECONDS")
+            ->check(within(1e-6, 1e6));
+    play->add_flag("--real-time", a.realTime, "Follow the clock instead of --time-step")
+        ->excludes(step);
+    play->add_option("--camera", a.view, "Where to look from")->type_name("")->check(validView());
     play->add_option("--screenshot", a.run.screenshot, "Write the last frame (PNG)")
         ->type_name("FILE");
     play->add_option("--script", a.run.script, "Run the lines of a file; '-' answers each line")
@@ -107,10 +125,12 @@ void addPlay(CLI::App& app, Arguments& a) {
         ->type_name("FILE");
     play->add_flag("--keep-going", a.run.player.keepGoing, "Draw what can be drawn despite errors");
     play->add_option("--samples", a.samples, "Samples of a pixel [1] (more are not built yet)")
-        ->check(CLI::Range(1, 32));
+        ->type_name("N")
+        ->check(within(1, 32));
     play->add_option("--max-anisotropy", a.run.player.maxAnisotropy,
                      "Cap on anisotropic filtering [1 on a software renderer]")
-        ->check(CLI::Range(1, 16));
+        ->type_name("N")
+        ->check(within(1, 16));
     addCommon(*play, a);
 }
 
