@@ -66,6 +66,12 @@ float patches(vec2 p) {
     return 0.5 * noise(p / 900.0) + 0.3 * noise(p / 210.0) + 0.2 * noise(p / 47.0);
 }
 
+// Tussocks and stones, as far as pixels can show them.
+float grain(vec2 p, float distance) {
+    float fine = 0.6 * noise(p / 11.0) + 0.4 * noise(p / 4.3);
+    return 1.0 + 0.9 * (fine - 0.5) * exp(-distance / 3500.0);
+}
+
 vec3 surface(vec3 p, vec3 n) {
     float patchy = patches(p.xy) - 0.5;
     float height = p.z + 500.0 * patchy;
@@ -95,6 +101,7 @@ void main() {
                     deformation.camera.w);
     float lit = max(dot(normal, sunDirection()), 0.0);
     vec3 light = sunlight() * lit + skylight(normal);
-    colour = vec4(developed(throughAir(surface(point, normal) * light, eye, point)), 1.0);
+    vec3 reflected = surface(point, normal) * grain(point.xy, length(point - eye)) * light;
+    colour = vec4(developed(throughAir(reflected, eye, point)), 1.0);
 }
 #endif
