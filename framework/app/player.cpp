@@ -175,6 +175,10 @@ bool Player::frame() {
     return drawn;
 }
 
+bool Player::complete() const {
+    return controller_ && quietFrames_ >= kQuietFrames && controller_->view == lastView_;
+}
+
 bool Player::drawUntilComplete(int mostFrames) {
     for (int i = 0; i < mostFrames && !complete(); ++i) {
         if (!frame()) return false;

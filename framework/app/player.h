@@ -63,8 +63,8 @@ public:
     /// there is nothing to draw.
     bool drawUntilComplete(int mostFrames = kMostFrames);
     /// The picture is complete: the last frames made no tile and left none waiting, and neither
-    /// view nor ground moved.
-    bool complete() const { return quietFrames_ >= kQuietFrames; }
+    /// view nor ground has moved.
+    bool complete() const;
     int frames() const { return frames_; }
     /// Of the last frame, seconds since the first one.
     double time() const { return time_; }

@@ -46,6 +46,9 @@ TEST_CASE("a player draws what its archive describes") {
     CHECK(!player.complete());
     CHECK(player.drawUntilComplete(10));
     CHECK(player.frames() < 10);
+    player.controller().view.x0 += 1;
+    CHECK(!player.complete());
+    CHECK(player.drawUntilComplete(10));
     const Image image = player.capture();
     CHECK(image.width == 32);
     CHECK(image.height == 24);
