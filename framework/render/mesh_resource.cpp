@@ -61,6 +61,7 @@ void declareMesh(Registry& registry) {
     registry.resource<Mesh, D>("mesh", "Vertices, and how they are drawn.")
         .attribute("source", &D::source, "the .mesh file")
         .required()
+        .lenient()
         .build(build);
     registry.nameInterface<Mesh>("mesh");
 }

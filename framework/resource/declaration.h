@@ -86,6 +86,9 @@ struct ElementDeclaration {
     bool named = true;            ///< accepts `name` (resources); local elements declare their own
     bool planned = false;         ///< accepted, but not built yet: one warning where it is used
     bool acceptsAnything = false; ///< attributes and children are not checked
+    bool lenient = false;         ///< unknown attributes are warnings
+    std::string standsForAll;     ///< an attribute beside which children are ignored, and unknown
+                                  ///< attributes are warnings
 
     std::optional<std::type_index> descriptionType;
     std::vector<std::type_index> provides;   ///< class and interfaces of what is built
@@ -182,6 +185,14 @@ public:
     }
     /// The tag is a prefix: `uniform` matches `uniform3f`.
     Derived& prefix() { return declaration_.prefix = true, self(); }
+    /// Unknown attributes are warnings: the original did not check this element.
+    Derived& lenient() { return declaration_.lenient = true, self(); }
+    /// Beside this attribute nothing else counts: children are ignored, and unknown attributes are
+    /// warnings.
+    Derived& standsForAll(std::string attribute) {
+        declaration_.standsForAll = std::move(attribute);
+        return self();
+    }
     /// Rules across attributes.
     Derived& check(std::function<void(const D&, Diagnostics&)> rule) {
         declaration_.check = [rule = std::move(rule)](const ElementDescription& d,

@@ -30,7 +30,7 @@ public:
             diagnostics_.warning("not-built-yet", element.place(),
                                  asTag(element.tag()) + " has no effect yet");
         }
-        if (!declaration.acceptsAnything) {
+        if (!declaration.acceptsAnything && !hasStandIn(element, declaration)) {
             warnText(element);
             result.valid &= readChildren(element, declaration, *result.description, depth);
         }
@@ -67,8 +67,9 @@ private:
                 good &= readDeclared(*a, xml, description);
             } else if (!readCommon(xml, declaration, keyed, description) &&
                        !declaration.acceptsAnything) {
-                unknownAttribute(xml, declaration, keyed, element.tag());
-                good = false;
+                const bool lenient = declaration.lenient || hasStandIn(element, declaration);
+                unknownAttribute(xml, declaration, keyed, element.tag(), lenient);
+                good &= lenient;
             }
         }
         good &= checkRequired(element, declaration, seen);
@@ -80,6 +81,12 @@ private:
             if (a.locate && !seen.contains(&a)) a.locate(description, description.place);
         }
         return good;
+    }
+
+    // Whether the attribute that stands for everything else is given.
+    static bool hasStandIn(const XmlElement& element, const ElementDeclaration& declaration) {
+        return !declaration.standsForAll.empty() &&
+               !element.attribute(declaration.standsForAll.c_str()).empty();
     }
 
     bool readDeclared(const AttributeDeclaration& a, const XmlAttribute& xml,
@@ -114,12 +121,13 @@ private:
     }
 
     void unknownAttribute(const XmlAttribute& xml, const ElementDeclaration& declaration,
-                          bool keyed, const std::string& tag) {
+                          bool keyed, const std::string& tag, bool lenient) {
         std::vector<std::string> names = declaration.attributeNames();
         if (declaration.named && !declaration.attribute("name")) names.push_back("name");
         if (keyed) names.push_back("id");
         std::sort(names.begin(), names.end());
-        diagnostics_.report({.code = "unknown-attribute",
+        diagnostics_.report({.severity = lenient ? Severity::warning : Severity::error,
+                             .code = "unknown-attribute",
                              .place = xml.namePlace,
                              .message = asTag(tag) + " has no attribute " + inQuotes(xml.name),
                              .expected = names.empty() ? "no attribute" : listOfNames(names),

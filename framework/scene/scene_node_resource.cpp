@@ -144,15 +144,14 @@ std::shared_ptr<SceneNode> buildNode(const NodeDescription& d, BuildContext&) {
 }
 
 template <class T>
-const ElementDeclaration& declareKeyed(Registry& registry, const char* tag, const char* summary,
-                                       const char* value) {
+LocalElementBuilder<KeyedDescription<T>> declareKeyed(Registry& registry, const char* tag,
+                                                      const char* summary, const char* value) {
     using D = KeyedDescription<T>;
     return registry.element<D>(tag, summary)
         .attribute("id", &D::key, "key that methods use")
         .required()
         .attribute("value", &D::value, value)
-        .required()
-        .declaration();
+        .required();
 }
 
 const ElementDeclaration& declareValue(Registry& registry) {
@@ -229,16 +228,20 @@ void declareSceneNode(Registry& registry) {
         "node", "A node of the scene: a place, what hangs at it, and what it can do.");
     node.attribute("flags", &D::flags, "words by which methods find the node")
         .attribute("value", &D::value, "in a nested node: the node to use instead of this one")
+        .standsForAll("value")
         .child(declareTranslation(registry))
         .child(declareRotation(registry, "rotatex"))
         .child(declareRotation(registry, "rotatey"))
         .child(declareRotation(registry, "rotatez"))
         .child(declareBounds(registry))
         .child(declareValue(registry))
-        .child(declareKeyed<Module>(registry, "module", "Shader code of the node.", "a module"))
-        .child(declareKeyed<Mesh>(registry, "mesh", "A mesh of the node.", "a mesh"))
+        .child(declareKeyed<Module>(registry, "module", "Shader code of the node.", "a module")
+                   .lenient()
+                   .declaration())
+        .child(declareKeyed<Mesh>(registry, "mesh", "A mesh of the node.", "a mesh").declaration())
         .child(declareKeyed<Resource>(registry, "field", "Any resource, kept at the node.",
-                                      "the resource"))
+                                      "the resource")
+                   .declaration())
         .child(declareMethod(registry))
         .child(node.declaration())
         .keyedResources("any other resource, nested, kept at the node as a field")

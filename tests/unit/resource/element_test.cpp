@@ -68,6 +68,15 @@ TEST_CASE("a wrong element is told where it stands") {
         {"text where anything is allowed", R"(^<mould name="m">words</mould>)", {"not-built-yet"}},
         {"an entry without a name", R"(^<apple/>)", {"unnamed-entry"}},
         {"a misspelt name", R"(^<apple ^nmae="a"/>)", {"unnamed-entry", "unknown-attribute"}},
+        {"an element that nobody checked",
+         R"(<crate name="c" ^any="1">^<apple/></crate>)",
+         {"unknown-attribute", "unknown-element"}},
+        {"an attribute that stands for all",
+         R"(<apple name="a"/><copy name="c" favourite="a" ^any="1"><stone/> words </copy>)",
+         {"unknown-attribute"}},
+        {"nothing that stands for all",
+         R"(<copy name="c" ^any="1">^<stone/></copy>)",
+         {"unknown-attribute", "unknown-element"}},
         {"an element for the player", R"(<player low="1"/>)", {}},
     };
     for (const Row& row : rows) {
@@ -112,6 +121,16 @@ TEST_CASE("all problems of an archive are told in one run, in the same order eac
         CHECK(reports(world.diagnostics) == first);
         CHECK(world.diagnostics.errors() == codes.size());
     }
+}
+
+TEST_CASE("what the original did not check is a warning") {
+    ArchiveWorld world;
+    world.load(
+        R"(<crate name="c" any="1"/><apple name="a"/><copy name="d" favourite="a" any="1"/>)");
+    CHECK(world.diagnostics.errors() == 0);
+    CHECK(world.diagnostics.warnings() == 2);
+    CHECK(world.manager->get<Basket>("c"));
+    CHECK(world.manager->get<Basket>("d"));
 }
 
 TEST_CASE("children are described and built in document order") {

@@ -96,6 +96,14 @@ void declareBaskets(Registry& registry) {
     registry.resource<Basket, B>("chain", "One that holds itself, for nesting.")
         .children<Basket>("more of them")
         .build([](const B& d, BuildContext& context) { return make<Basket>(context, d); });
+    registry.resource<Basket, B>("crate", "Nobody checks it.")
+        .lenient()
+        .build([](const B& d, BuildContext& context) { return make<Basket>(context, d); });
+    registry.resource<Basket, B>("copy", "Its favourite stands for all of it.")
+        .attribute("favourite", &B::favourite, "a fruit")
+        .standsForAll("favourite")
+        .children<Fruit>("fruits")
+        .build([](const B& d, BuildContext& context) { return make<Basket>(context, d); });
     registry.topLevel(registry.element<L>("player", "What is played.").declaration());
 }
 
