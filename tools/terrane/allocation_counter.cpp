@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "allocation_counter.h"
+#include "tools/terrane/allocation_counter.h"
 
 #include <atomic>
 #include <cstdlib>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "allocation_counter.h"
 #include "app/check.h"
 #include "app/fixture_pool.h"
 #include "app/register_types.h"
 #include "app/run.h"
 #include "core/files.h"
 #include "core/text.h"
-#include "new_archive.h"
 #include "plugins/standard_plugins.h"
 #include "resource/registry.h"
+#include "tools/terrane/allocation_counter.h"
+#include "tools/terrane/new_archive.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "new_archive.h"
+#include "tools/terrane/new_archive.h"
 
 #include "core/files.h"
 
