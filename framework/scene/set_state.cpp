@@ -73,7 +73,9 @@ void declareSetState(Registry& registry) {
         .attribute("clearColor", &D::clearColor, "clears the colours")
         .attribute("clearStencil", &D::clearStencil, "clears the stencil")
         .attribute("clearDepth", &D::clearDepth, "clears the depth");
-    for (const ElementDeclaration* element : declareStateElements(registry))
+    for (const ElementDeclaration* element : declareRasterStateElements(registry))
+        builder.child(*element);
+    for (const ElementDeclaration* element : declareFragmentStateElements(registry))
         builder.child(*element);
     builder.build([](const D& d, BuildContext&) { return std::make_shared<SetState>(d); });
 }

@@ -9,12 +9,27 @@
 
 namespace terrane {
 
-/// A child of <setState>: what it says, applied to a state. What is not written stays as it is.
+/// A child of <setState>: what it says, applied to a state. What is not written stays as it is (ork
+/// reference 2.16).
 struct StateElement : ElementDescription {
     virtual void apply(PipelineState& state) const = 0;
 };
 
-/// The declarations, in the order of the manual.
-std::vector<const ElementDeclaration*> declareStateElements(Registry& registry);
+using StateDeclarations = std::vector<const ElementDeclaration*>;
+
+/// viewport, depthRange, clipDistances, clear, point, line, polygon: where and how faces are drawn.
+StateDeclarations declareRasterStateElements(Registry& registry);
+/// depth, stencil, blend, logic, scissor, write, multisampling, occlusion: what becomes of a
+/// fragment.
+StateDeclarations declareFragmentStateElements(Registry& registry);
+
+/// A rule for checks: with the first attribute the second has to be given.
+template <class A, class B>
+void together(const ElementDescription& d, const Attr<A>& first, const char* firstName,
+              const Attr<B>& second, const char* secondName, Diagnostics& diagnostics) {
+    if (!first.given || second.given) return;
+    diagnostics.error("missing-attribute", d.place,
+                      "<" + d.tag + "> with '" + firstName + "' needs '" + secondName + "'");
+}
 
 } // namespace terrane
