@@ -29,8 +29,6 @@ void registerStandardTypes(Registry& registry) {
     declareModule(registry);
     declareProgram(registry);
     declareMesh(registry);
-    declareModule(registry);
-    declareProgram(registry);
     declareSceneNode(registry);
     declareControlTasks(registry);
     declareDrawMesh(registry);
