@@ -156,10 +156,9 @@ void CreateTile::abandon() {
 }
 
 void CreateTile::loseData() {
-    // One that isn't done may be scheduled from before it was evicted, and about to end in vain:
-    // it must not count as done then.
-    if (!done()) markUndone(Reason::dependencyChanged);
-    markUndone(Reason::dataNeeded);
+    // One that isn't done may be about to end on a worker, for the slot that it had before or in
+    // vain: that must not count.
+    markUndone(done() ? Reason::dataNeeded : Reason::dataChanged);
 }
 
 } // namespace terrane

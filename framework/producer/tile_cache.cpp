@@ -136,7 +136,10 @@ TileSlot* TileCache::takeSlot() {
     if (TileSlot* slot = evict()) return slot;
     releaseFinished();
     if (TileSlot* slot = evict()) return slot;
-    return revokeUnused() ? evict() : nullptr;
+    // Each pass may leave more tiles without users, whose own inputs the next one can take.
+    while (revokeUnused())
+        if (TileSlot* slot = evict()) return slot;
+    return nullptr;
 }
 
 // The slot of the least recently used tile that isn't just being produced.

@@ -40,6 +40,8 @@ JobQueue::Index JobQueue::jobOf(const TaskGraph::Member& member, const DurationT
     const Index known = task.job_;
     if (known == kNone) return create(member.task, member.ticket, durations);
     if (jobs_[known].state != State::running) {
+        // Inputs that ended undone meanwhile are in the graph, too, and run again before.
+        jobs_[known].tainted = false;
         jobs_[known].ticket = std::max(jobs_[known].ticket, member.ticket);
         lower(known, task.deadline());
         return known;
@@ -48,7 +50,10 @@ JobQueue::Index JobQueue::jobOf(const TaskGraph::Member& member, const DurationT
         lower(known, task.deadline());
         return known;
     }
-    // It was marked undone while it runs: once more, after that.
+    // It was marked undone while it runs: once more, after that. What waits for it gets its result
+    // from then (see guardDependents), and is not spoilt by how the present run ends.
+    for (Index edge = jobs_[known].firstOut; edge != kNone; edge = edges_[edge].nextOut)
+        edges_[edge].input = false;
     const Index again = create(member.task, member.ticket, durations);
     connect(known, again, false);
     return again;

@@ -94,6 +94,32 @@ TEST_CASE("A CPU task is not queued for the workers when an input needs the GPU"
     CHECK(task->runs == 1);
 }
 
+TEST_CASE("A queued task is done in the frame that repeats its input, which ended undone before") {
+    MultithreadScheduler scheduler({.prefetchRate = 1, .prefetchQueue = 10});
+    TestTask* self = nullptr;
+    const auto input = cpuTask(
+        [&] {
+            if (self->runs == 1) self->markUndone(Task::Reason::dependencyChanged);
+            return true;
+        },
+        "Input", Task::kWhenever);
+    self = input.get();
+    const auto task = cpuTask({}, "Task", Task::kWhenever);
+    task->addPredecessor(input);
+    REQUIRE(scheduler.schedule(task));
+    TaskGraph graph;
+    scheduler.run(graph); // its share of the queue: the input
+    REQUIRE(input->runs == 1);
+    REQUIRE_FALSE(input->done());
+
+    task->setDeadline(Task::kImmediate);
+    graph.add(task);
+    scheduler.run(graph);
+    CHECK(input->done());
+    CHECK(task->runs == 1);
+    CHECK(task->done());
+}
+
 TEST_CASE("Queued tasks are dropped when the scheduler goes, and another may run them") {
     const auto task = cpuTask({}, "Tile", Task::kWhenever);
     SUBCASE("destroyed") {
