@@ -174,14 +174,23 @@ TransferLayout layoutOf(const TextureElement& d, const InternalFormatInfo& forma
     return fits ? TransferLayout{d.format, type} : layout;
 }
 
+/// What is to blame for sizes that don't go together: one that is written, else the file.
+Place sizePlace(const TextureElement& d) {
+    for (const Attr<int>* size : {&d.height, &d.depth, &d.layers}) {
+        if (size->given) return size->place;
+    }
+    return d.source.given ? d.source.place : d.place;
+}
+
 std::shared_ptr<Texture> make(T target, const TextureElement& d, const Geometry& geometry,
                               BuildContext& context) {
     const auto& gl = context.service<GlContext>();
     TextureDescription description{.format = d.internalformat};
     std::string problem = describe(target, geometry, description);
+    const Place place = problem.empty() ? d.place : sizePlace(d);
     if (problem.empty()) problem = Texture::problem(gl, description);
     if (!problem.empty()) {
-        context.diagnostics().error("bad-texture", d.place, problem);
+        context.diagnostics().error("bad-texture", place, problem);
         return nullptr;
     }
     auto texture = std::make_shared<Texture>(gl, description, d.sampling());

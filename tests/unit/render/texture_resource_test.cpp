@@ -229,7 +229,7 @@ TEST_CASE_FIXTURE(TextureFixture, "What is wrong with a texture is told at its p
                  "bad-texture 64"},
              Row{"<texture2D name='t' internalformat='R8' source='a.png' height='8'/>",
                  "bad-texture 49"},
-             Row{"<textureCube name='t' internalformat='R8' source='a.png'/>", "bad-texture 1"},
+             Row{"<textureCube name='t' internalformat='R8' source='a.png'/>", "bad-texture 51"},
          }) {
         CAPTURE(row.element);
         CHECK_FALSE(load<Texture>(row.element, "t"));
