@@ -38,15 +38,23 @@ vec4 deformFlat(vec2 uv, float height) {
 vec4 deformSphere(vec2 uv, float height) {
     vec4 uvUV = vec4(uv, vec2(1.0) - uv);
     vec4 alpha = uvUV.zxzx * uvUV.wwyy;
-    vec4 alphaNorms = alpha * deformation.screenQuadCornerNorms;
-    float sum = alphaNorms.x + alphaNorms.y + alphaNorms.z + alphaNorms.w;
-    vec4 alphaPrime = alphaNorms / sum;
+    vec4 norms = deformation.screenQuadCornerNorms;
+    vec4 alphaPrime = alpha * norms / dot(alpha, norms);
 
+    // The corners' unit vectors, interpolated, are shorter than 1 by 1-k, k = |P|/(alpha.norms). As
+    // a difference of two large numbers that would be off by a metre on Earth; as a sum over the
+    // corners it is as exact as the quad is small.
     float R = deformation.radius;
-    vec3 P = vec3(uv * deformation.offset.z + deformation.offset.xy, R);
-    // The sphere's height over the chord plane of the corners; rounding must not make it negative.
-    float k = min(length(P) / sum * 1.0000003, 1.0);
-    float heightPrime = (height + R * (1.0 - k)) / k;
+    float l = deformation.offset.z;
+    vec2 p = uv * l + deformation.offset.xy;
+    float normP = length(vec3(p, R));
+    float difference = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 toCorner = l * (vec2(i % 2, i / 2) - uv);
+        difference += alpha[i] * dot(toCorner, 2.0 * p + toCorner) / (norms[i] + normP);
+    }
+    float oneMinusK = difference / dot(alpha, norms);
+    float heightPrime = (height + R * oneMinusK) / (1.0 - oneMinusK);
     return (deformation.screenQuadCorners + heightPrime * deformation.screenQuadVerticals) *
            alphaPrime;
 }
