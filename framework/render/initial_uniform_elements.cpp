@@ -2,6 +2,7 @@
 #include "render/initial_uniform_elements.h"
 
 #include "core/text.h"
+#include "resource/attribute_place.h"
 #include "resource/registry.h"
 
 #include <array>
@@ -82,7 +83,7 @@ void checkVector(const VectorElement& d, Diagnostics& diagnostics) {
     constexpr std::array names{"x", "y", "z", "w"};
     for (int i = type->rows; i < 4; ++i) {
         if (!d.components()[i]->given) continue;
-        diagnostics.error("unknown-attribute", d.components()[i]->place,
+        diagnostics.error("unknown-attribute", attributeName(d.components()[i]->place),
                           "<" + d.tag + "> has no attribute '" + names[i] + "'");
     }
 }

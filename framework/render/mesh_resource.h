@@ -10,7 +10,7 @@ namespace terrane {
 
 class Registry;
 
-/// Declares the element mesh, which builds a Mesh of a `.mesh` file (Ork format 2.7), or, where the
+/// Declares the element mesh, which builds a Mesh of a `.mesh` file (Ork reference 2.7), or, where the
 /// search folders have no such file, of builtInMesh. Builders need the service GlContext.
 void declareMesh(Registry& registry);
 

@@ -84,7 +84,7 @@ enum class CullFace : unsigned { none = 0, front = 0x0404, back = 0x0405, both =
 inline constexpr int kMaxColourBuffers = 8;
 
 /// Everything that `setState` can set and that belongs to a framebuffer: plain data with the
-/// state of a fresh framebuffer as its defaults (Ork format 2.16). Framebuffer::use applies it.
+/// state of a fresh framebuffer as its defaults (Ork reference 2.16). Framebuffer::use applies it.
 struct PipelineState {
     struct Rectangle {
         int x = 0, y = 0, width = 0, height = 0;

@@ -118,7 +118,7 @@ void checkTexture(T target, const TextureElement& d, Diagnostics& diagnostics) {
     }
 }
 
-/// Tells what the file overrules (Ork format 1.4).
+/// Tells what the file overrules (Ork reference 1.4).
 void warnOverruled(const TextureElement& d, const Image& image, Diagnostics& diagnostics) {
     if (d.width.given && *d.width != image.width) {
         diagnostics.warning("unused-attribute", d.width.place,

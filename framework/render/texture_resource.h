@@ -6,7 +6,7 @@ namespace terrane {
 class Registry;
 
 /// Declares the elements texture1D, texture1DArray, texture2D, texture2DArray, texture3D,
-/// textureCube, textureCubeArray and textureRectangle (Ork format 2.2), which build a Texture. A
+/// textureCube, textureCubeArray and textureRectangle (Ork reference 2.2), which build a Texture. A
 /// texture without a source starts out zeroed. Builders need the service GlContext.
 void declareTextures(Registry& registry);
 
