@@ -13,21 +13,22 @@ uniform samplerTile elevationSampler; // heights: of this level, of the level be
 uniform samplerTile normalSampler;    // normals (x, y): of this level, of the level before
 
 #ifdef _VERTEX_
-layout(location = 0) in vec3 vertex; // xy in [0,1] over the quad
+layout(location = 0) in vec3 vertex; // of the skirted grid: xy in [0,1] over the quad, z = 1
 out vec3 point;  // metres
 out vec2 uv;
 out float blend; // 0: this level, 1: the level before
 
 void main() {
-    vec3 zfc = textureTile(elevationSampler, vertex.xy).xyz;
-    vec2 way = abs(deformation.camera.xy - vertex.xy);
+    uv = clamp(vertex.xy, 0.0, 1.0);
+    vec3 zfc = textureTile(elevationSampler, uv).xyz;
+    vec2 way = abs(deformation.camera.xy - uv);
     float distance = max(max(way.x, way.y), deformation.camera.z);
     blend = clamp((distance - deformation.blending.x) / deformation.blending.y, 0.0, 1.0);
 
-    uv = vertex.xy;
-    point = vec3(vertex.xy * deformation.offset.z + deformation.offset.xy,
-                 mix(zfc.z, zfc.y, blend));
-    gl_Position = deformation.localToScreen * vec4(point, 1.0);
+    point = vec3(uv * deformation.offset.z + deformation.offset.xy, mix(zfc.z, zfc.y, blend));
+    // The skirt, slightly outside and below, hides the gaps that rounding leaves between quads.
+    vec3 skirt = (vertex - vec3(uv, 1.0)) * deformation.offset.z;
+    gl_Position = deformation.localToScreen * vec4(point + skirt, 1.0);
 }
 #endif
 

@@ -14,6 +14,32 @@ std::vector<std::byte> toBytes(const std::vector<float>& values) {
     return bytes;
 }
 
+/// Triangles over a grid of `side` x `side` vertices: each quad is split from north-west to
+/// south-east.
+std::vector<std::uint32_t> gridTriangles(std::uint32_t side) {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t y = 0; y + 1 < side; ++y) {
+        for (std::uint32_t x = 0; x + 1 < side; ++x) {
+            const std::uint32_t southWest = y * side + x, southEast = southWest + 1;
+            const std::uint32_t northWest = southWest + side, northEast = northWest + 1;
+            indices.insert(indices.end(),
+                           {southWest, southEast, northWest, northWest, southEast, northEast});
+        }
+    }
+    return indices;
+}
+
+std::vector<std::uint32_t> gridLines(std::uint32_t side) {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t y = 0; y + 1 < side; ++y) {
+        for (std::uint32_t x = 0; x + 1 < side; ++x) {
+            const std::uint32_t southWest = y * side + x, northWest = southWest + side;
+            indices.insert(indices.end(), {southWest, southWest + 1, northWest + 1, northWest});
+        }
+    }
+    return indices;
+}
+
 } // namespace
 
 std::size_t byteSize(VertexType type) {
@@ -70,21 +96,36 @@ MeshData makeGridMesh(int n, PrimitiveMode mode) {
     }
     mesh.vertices = toBytes(positions);
     mesh.vertexCount = std::size_t(side) * side;
-    for (std::uint32_t y = 0; y + 1 < side; ++y) {
-        for (std::uint32_t x = 0; x + 1 < side; ++x) {
-            const std::uint32_t southWest = y * side + x, southEast = southWest + 1;
-            const std::uint32_t northWest = southWest + side, northEast = northWest + 1;
-            if (mode == PrimitiveMode::triangles) {
-                mesh.indices.insert(mesh.indices.end(), {southWest, southEast, northWest, northWest,
-                                                         southEast, northEast});
-            } else {
-                mesh.indices.insert(mesh.indices.end(),
-                                    {southWest, southEast, northEast, northWest});
-            }
-        }
-    }
+    mesh.indices = mode == PrimitiveMode::triangles ? gridTriangles(side) : gridLines(side);
     mesh.boundsMin = {0, 0, 1};
     mesh.boundsMax = {1, 1, 1};
+    return mesh;
+}
+
+MeshData makeSkirtedGridMesh(int n) {
+    assert(n >= 1 && "makeSkirtedGridMesh(): at least one quad");
+    // In edges of the grid. Gaps are some 1/256 of a pixel wide, and an edge is seldom more than a
+    // screen; nobody sees a skirt of a few pixels behind a surface.
+    constexpr float kOutwards = 1.0F / 2048, kDown = 1.0F / 256;
+    MeshData mesh;
+    mesh.attributes = {{.location = 0, .components = 3}};
+    const auto position = [n](int i) {
+        return i == 0 ? -kOutwards : i == n + 2 ? 1 + kOutwards : float(i - 1) / float(n);
+    };
+    const auto outside = [n](int i) { return i == 0 || i == n + 2; };
+    std::vector<float> positions;
+    for (int y = 0; y <= n + 2; ++y) {
+        for (int x = 0; x <= n + 2; ++x) {
+            const float z = outside(x) || outside(y) ? 1 - kDown : 1;
+            positions.insert(positions.end(), {position(x), position(y), z});
+        }
+    }
+    mesh.vertices = toBytes(positions);
+    const auto side = std::uint32_t(n) + 3;
+    mesh.vertexCount = std::size_t(side) * side;
+    mesh.indices = gridTriangles(side);
+    mesh.boundsMin = {-kOutwards, -kOutwards, 1 - kDown};
+    mesh.boundsMax = {1 + kOutwards, 1 + kOutwards, 1};
     return mesh;
 }
 

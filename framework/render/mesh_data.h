@@ -63,4 +63,10 @@ MeshData makeQuadMesh();
 /// the south-west, for a geometry shader. No other mode is allowed.
 MeshData makeGridMesh(int n, PrimitiveMode mode = PrimitiveMode::triangles);
 
+/// The same triangles with a skirt that hangs from the edges, a little outwards: one more ring of
+/// vertices outside of [0,1] x [0,1], with z less than 1. A shader that places vertices at
+///     surface at clamp(xy, 0, 1) + (xy - clamp(xy, 0, 1), z - 1) * edge of the grid
+/// leaves no gap between neighbours, not even where rounding moves what should be one edge.
+MeshData makeSkirtedGridMesh(int n);
+
 } // namespace terrane

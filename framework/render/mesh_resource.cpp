@@ -40,20 +40,26 @@ std::shared_ptr<Mesh> build(const MeshElement& d, BuildContext& context) {
 
 std::optional<MeshData> builtInMesh(std::string_view name) {
     if (name == "quad.mesh") return makeQuadMesh();
-    constexpr std::string_view prefix = "grid", suffix = ".mesh", lines = "adjacency";
+    constexpr std::string_view prefix = "grid", suffix = ".mesh", lines = "adjacency",
+                               skirt = "skirt";
     if (!name.starts_with(prefix) || !name.ends_with(suffix)) return std::nullopt;
     name.remove_prefix(prefix.size());
     name.remove_suffix(suffix.size());
-    auto mode = PrimitiveMode::triangles;
-    if (name.ends_with(lines)) {
-        mode = PrimitiveMode::linesAdjacency;
-        name.remove_suffix(lines.size());
+    const bool skirted = name.ends_with(skirt);
+    if (skirted) name.remove_suffix(skirt.size());
+    const bool adjacency = !skirted && name.ends_with(lines);
+    if (adjacency) name.remove_suffix(lines.size());
+    int side = kUsualVertices;
+    if (!name.empty()) {
+        if (name.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+        const auto vertices = parseInt(name);
+        if (!vertices || vertices->value < 2 || vertices->value > kMostVertices)
+            return std::nullopt;
+        side = vertices->value;
     }
-    if (name.empty()) return makeGridMesh(kUsualVertices - 1, mode);
-    if (name.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
-    const auto vertices = parseInt(name);
-    if (!vertices || vertices->value < 2 || vertices->value > kMostVertices) return std::nullopt;
-    return makeGridMesh(vertices->value - 1, mode);
+    if (skirted) return makeSkirtedGridMesh(side - 1);
+    return makeGridMesh(side - 1,
+                        adjacency ? PrimitiveMode::linesAdjacency : PrimitiveMode::triangles);
 }
 
 void declareMesh(Registry& registry) {

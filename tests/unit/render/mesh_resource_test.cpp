@@ -49,8 +49,12 @@ TEST_CASE("Built-in meshes have their names") {
     CHECK(builtInMesh("grid2.mesh")->indices.size() == 6);
     CHECK(builtInMesh("grid25adjacency.mesh")->mode == PrimitiveMode::linesAdjacency);
     CHECK(builtInMesh("gridadjacency.mesh")->indices.size() == 24 * 24 * 4);
-    for (const char* name : {"grid1.mesh", "grid-3.mesh", "grid99999999999.mesh", "grids.mesh",
-                             "quad", "quads.mesh", ".mesh", "grid", "gri.mesh"}) {
+    CHECK(builtInMesh("gridskirt.mesh")->vertexCount == 27 * 27);
+    CHECK(builtInMesh("grid3skirt.mesh")->vertexCount == 25);
+    for (const char* name :
+         {"grid1.mesh", "grid-3.mesh", "grid99999999999.mesh", "grids.mesh", "quad", "quads.mesh",
+          ".mesh", "grid", "gri.mesh", "gridskirtadjacency.mesh", "gridadjacencyskirt.mesh",
+          "grid1skirt.mesh"}) {
         CAPTURE(name);
         CHECK_FALSE(builtInMesh(name));
     }

@@ -4,6 +4,7 @@
 #include "render/mesh.h"
 #include "render/render_target.h"
 
+#include <array>
 #include <cstring>
 
 namespace terrane {
@@ -213,6 +214,37 @@ TEST_CASE("Grid meshes have the documented vertices and triangles") {
     CHECK(lines.indices.size() == 24 * 24 * 4);
     const std::vector<std::uint32_t> corners(lines.indices.begin(), lines.indices.begin() + 4);
     CHECK(corners == std::vector<std::uint32_t>{0, 1, 26, 25});
+}
+
+TEST_CASE("A skirted grid is a grid with one more ring, outside and below") {
+    const int n = 4, side = n + 3;
+    const MeshData mesh = makeSkirtedGridMesh(n);
+    const MeshData grid = makeGridMesh(n);
+    REQUIRE(mesh.vertexCount == side * side);
+    CHECK(mesh.indices == makeGridMesh(n + 2).indices);
+    const auto vertex = [](const MeshData& data, int index) {
+        std::array<float, 3> v{};
+        std::memcpy(v.data(), &data.vertices[std::size_t(index) * 12], 12);
+        return v;
+    };
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            CAPTURE(x);
+            CAPTURE(y);
+            const auto v = vertex(mesh, y * side + x);
+            const bool skirt = x == 0 || y == 0 || x == side - 1 || y == side - 1;
+            if (skirt) {
+                CHECK(v[2] < 1);
+                CHECK((v[0] < 0 || v[0] > 1 || v[1] < 0 || v[1] > 1));
+            } else {
+                CHECK(v == vertex(grid, (y - 1) * (n + 1) + x - 1));
+            }
+            for (int i = 0; i < 3; ++i) {
+                CHECK(v[i] >= static_cast<float>(mesh.boundsMin[i]));
+                CHECK(v[i] <= static_cast<float>(mesh.boundsMax[i]));
+            }
+        }
+    }
 }
 
 } // namespace terrane
