@@ -25,10 +25,12 @@ Image capturePlane(const Texture& colour, int channels) {
 
 RenderTarget::RenderTarget(const GlContext& context, int width, int height)
     : colour_(makePlane(context, InternalFormat::rgba8, width, height))
-    , depth_(makePlane(context, InternalFormat::depth32f, width, height))
+    // As precise as 32 bits of float where depths crowd, near 1, and archives count on a stencil.
+    , depth_(makePlane(context, InternalFormat::depth24Stencil8, width, height))
     , framebuffer_(context) {
     framebuffer_.attach(AttachmentPoint::colour0, {colour_});
     framebuffer_.attach(AttachmentPoint::depth, {depth_});
+    framebuffer_.attach(AttachmentPoint::stencil, {depth_});
     framebuffer_.setDrawBuffers({AttachmentPoint::colour0});
     framebuffer_.setReadBuffer(AttachmentPoint::colour0);
     framebuffer_.fixBuffers();

@@ -23,6 +23,7 @@ public:
     Framebuffer& framebuffer() { return framebuffer_; }
     const Framebuffer& framebuffer() const { return framebuffer_; }
     const std::shared_ptr<Texture>& colour() const { return colour_; }
+    /// Depth and stencil in one texture.
     const std::shared_ptr<Texture>& depth() const { return depth_; }
 
     /// The picture as 4 channels of 8 bits, bottom row first. Waits for the GPU.

@@ -190,7 +190,7 @@ TEST_CASE_FIXTURE(ModuleFixture, "What is wrong with a module is told where it s
         {"<module name='m' version='330' source='m.glsl'><uniform1f x='1'/></module>",
          ":2:48 missing-attribute"},
         {"<module name='m' version='330' source='m.glsl'><uniform1f name='u' y='1'/></module>",
-         ":2:71 unknown-attribute"},
+         ":2:68 unknown-attribute"},
         {"<module name='m' version='330' source='m.glsl'><uniformMatrix5f name='u' "
          "value='zero'/></module>",
          ":2:48 unknown-element"},
