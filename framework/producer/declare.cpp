@@ -37,7 +37,9 @@ std::shared_ptr<GpuTileStorage> buildGpuTileStorage(const GpuTileStorageDescript
     const int maxLayers = gl.maxArrayLayers();
     const std::string problem = GpuTileStorage::problem(gl, description, maxLayers);
     if (!problem.empty()) {
-        context.diagnostics().error("bad-texture", d.place, problem);
+        const bool map = d.tileMap && d.nTiles > maxLayers;
+        context.diagnostics().error("bad-texture", map ? d.tileMap.place : d.tileSize.place,
+                                    problem);
         return nullptr;
     }
     auto storage = std::make_shared<GpuTileStorage>(gl, description, maxLayers);
@@ -100,8 +102,8 @@ void declareCpuTileStorage(Registry& registry, const std::string& tag, std::stri
             const double bytes =
                 1.0 * d.tileSize * d.tileSize * d.channels * d.capacity * sizeof(T);
             if (bytes > kMaxBytes)
-                diagnostics.error("out-of-range", d.place, "so many tiles fit in no memory",
-                                  "fewer, or smaller, tiles");
+                diagnostics.error("out-of-range", d.capacity.place,
+                                  "so many tiles fit in no memory", "fewer, or smaller, tiles");
         })
         .build([](const D& d, BuildContext&) {
             auto storage = std::make_shared<CpuTileStorage<T>>(d.tileSize, d.channels, d.capacity);

@@ -65,11 +65,9 @@ Tile* TileCache::getTile(TileProducer& producer, const TileId& id, unsigned dead
     CreateTile& task = *tile->task_;
     tile->deadline_ = std::min(tile->deadline_, deadline);
     task.setDeadline(deadline);
-    if (!fresh && task.done()) {
-        ++counts_.hits;
-        return tile;
-    }
-    ++counts_.misses;
+    const bool known = !fresh && (task.done() || task.acquired_);
+    ++(known ? counts_.hits : counts_.misses);
+    if (known) return tile;
     if (task.acquire()) {
         if (fresh) task.loseData();
         return tile;

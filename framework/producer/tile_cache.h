@@ -66,8 +66,8 @@ public:
         int capacity = 0; ///< slots of the storage
         int used = 0;
         int unused = 0;
-        std::uint64_t hits = 0;    ///< getTile: the slot held the data
-        std::uint64_t misses = 0;  ///< getTile: it has to be produced, or produced again
+        std::uint64_t hits = 0;    ///< getTile: the data is there, or about to be made
+        std::uint64_t misses = 0;  ///< getTile: it has to be made, or made again
         std::uint64_t evicted = 0; ///< unused tiles that gave their slot away
         std::uint64_t refused = 0; ///< requests that found no slot
     };

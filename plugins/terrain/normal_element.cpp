@@ -38,8 +38,10 @@ bool checkTileSize(const NormalDescription& d, const GpuTileStorage& storage,
         return false;
     }
     if ((right - 1) % d.gridSize == 0) return true;
-    reportTileSize(storage, d.cache.place, "normals with gridSize " + std::to_string(*d.gridSize),
-                   multiplesNear(d.gridSize, 1, right), diagnostics);
+    diagnostics.error("wrong-grid-size", d.gridSize.place,
+                      "gridSize " + std::to_string(*d.gridSize) + " does not divide the " +
+                          std::to_string(right - 1) + " texels along the edge of a quad",
+                      "the gridSize of the elevations");
     return false;
 }
 

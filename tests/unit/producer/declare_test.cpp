@@ -112,15 +112,15 @@ TEST_CASE_FIXTURE(ArchiveFixture, "What is wrong with a storage or a cache is to
          "out-of-range 3:54\n"},
         {"more than there is memory",
          "<cpuFloatTileStorage name=\"a\" tileSize=\"60000\" channels=\"4\" capacity=\"9999\"/>",
-         "out-of-range 3:1\n"},
+         "out-of-range 3:71\n"},
         {"a tile larger than a texture",
          "<gpuTileStorage name=\"a\" tileSize=\"1000000\" nTiles=\"1\" internalformat=\"R8\" "
          "format=\"RED\" type=\"UNSIGNED_BYTE\"/>",
-         "bad-texture 3:1\n"},
+         "bad-texture 3:36\n"},
         {"a tile map over several textures",
          "<gpuTileStorage name=\"a\" tileSize=\"1\" nTiles=\"100000\" internalformat=\"R8\" "
          "format=\"RED\" type=\"UNSIGNED_BYTE\" tileMap=\"true\"/>",
-         "bad-texture 3:1\n"},
+         "bad-texture 3:118\n"},
     };
     for (const Row& row : rows) {
         CAPTURE(std::string(row.name));
