@@ -27,6 +27,8 @@ Visibility visibility(const glm::dvec4& plane, std::span<const glm::dvec3> point
 Visibility visibility(const FrustumPlanes& planes, std::span<const glm::dvec3> points);
 
 /// Two tests that both must be passed.
-constexpr Visibility both(Visibility a, Visibility b) { return a > b ? a : b; }
+constexpr Visibility both(Visibility a, Visibility b) {
+    return a > b ? a : b;
+}
 
 } // namespace terrane

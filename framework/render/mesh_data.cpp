@@ -106,7 +106,7 @@ MeshData makeSkirtedGridMesh(int n) {
     assert(n >= 1 && "makeSkirtedGridMesh(): at least one quad");
     // In edges of the grid. Gaps are some 1/256 of a pixel wide, and an edge is seldom more than a
     // screen; nobody sees a skirt of a few pixels behind a surface.
-    constexpr float kOutwards = 1.0F / 2048, kDown = 1.0F / 256;
+    constexpr float kOutwards = 1.0F / 2048, kDown = 1.0F / 16;
     MeshData mesh;
     mesh.attributes = {{.location = 0, .components = 3}};
     const auto position = [n](int i) {

@@ -9,8 +9,8 @@
 
 namespace terrane {
 
-/// Reads a `.mesh` text (Ork reference 2.7): bounds, topology, attributes, vertices, indices, as words
-/// between white space; remarks may follow the last index. Nothing, with a diagnostic
+/// Reads a `.mesh` text (Ork reference 2.7): bounds, topology, attributes, vertices, indices, as
+/// words between white space; remarks may follow the last index. Nothing, with a diagnostic
 /// ("mesh-syntax"), when anything is wrong: bad words and numbers, indices without a vertex, a text
 /// that ends early. Memory is only taken for what the text can hold, whatever counts it claims. Any
 /// thread.

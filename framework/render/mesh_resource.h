@@ -10,8 +10,8 @@ namespace terrane {
 
 class Registry;
 
-/// Declares the element mesh, which builds a Mesh of a `.mesh` file (Ork reference 2.7), or, where the
-/// search folders have no such file, of builtInMesh. Builders need the service GlContext.
+/// Declares the element mesh, which builds a Mesh of a `.mesh` file (Ork reference 2.7), or, where
+/// the search folders have no such file, of builtInMesh. Builders need the service GlContext.
 void declareMesh(Registry& registry);
 
 /// The meshes that every archive may name: `quad.mesh`, the full-screen strip; `grid.mesh`, a grid

@@ -33,7 +33,8 @@ enum class BorderType {
     unsignedInteger    ///< `IUNSIGNED_INT`: as they are, for unsigned integer textures
 };
 
-/// How a texture is read by shaders: plain data with the defaults of the elements (Ork reference 2.2).
+/// How a texture is read by shaders: plain data with the defaults of the elements (Ork
+/// reference 2.2).
 struct SamplingParameters {
     MinFilter min = MinFilter::nearest;
     MagFilter mag = MagFilter::linear; ///< integer textures are always read nearest

@@ -9,8 +9,8 @@
 
 namespace terrane {
 
-// All formats, types and their words in archives (Ork reference 2.2) stand here and nowhere else. The
-// values of the enumerations are OpenGL's own.
+// All formats, types and their words in archives (Ork reference 2.2) stand here and nowhere else.
+// The values of the enumerations are OpenGL's own.
 
 /// How a texture stores its pixels, such as GL_RGBA8; see internalFormats for the ones there are.
 enum class InternalFormat : unsigned {
