@@ -45,7 +45,9 @@ public:
         SceneNode* const node = nodeOf(name);
         if (!node) return resources().get<T>(name->name, name.place).get();
         T* const found = node->field<T>(name->name);
-        if (!found)
+        const auto field = node->fields.find(name->name);
+        const bool told = field != node->fields.end() && !field->second.get();
+        if (!found && !told)
             reportMissing(name, *node, "field",
                           resources().registry().describeInterface(typeid(T)));
         return found;

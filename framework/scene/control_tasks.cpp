@@ -152,6 +152,7 @@ public:
             context.reportMissing(name_, *node, "method");
             return nullptr;
         }
+        if (!method->second.task) return nullptr; // told at the node
         const BindContext::Call call(context, *node, name_->name);
         if (!call) {
             context.diagnostics().error("cycle", name_.place,

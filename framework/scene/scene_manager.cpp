@@ -126,6 +126,7 @@ bool SceneManager::plan() {
                           "<method id=\"" + cameraMethod_ + "\" value=\"...\"/> in it");
         return false;
     }
+    if (!method->second.task) return false; // told at the node
     BindContext context(*this, *eye);
     const BindContext::Call call(context, *eye, cameraMethod_);
     plan_ = method->second.task->bind(context);

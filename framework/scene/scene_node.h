@@ -45,6 +45,7 @@ public:
     glm::dmat4 localToParent{1};    ///< ignored on the root, whose frame is the world
     Box localBounds;                ///< of what is drawn at this node itself
 
+    // References to what could not be had are empty.
     std::map<std::string, NodeValue, std::less<>> values;
     std::map<std::string, Ref<Module>, std::less<>> modules;
     std::map<std::string, Ref<Mesh>, std::less<>> meshes;

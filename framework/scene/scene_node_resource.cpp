@@ -104,25 +104,27 @@ public:
     }
 
 private:
+    // What could not be had is kept as an empty reference: methods that use it fail silently, since
+    // it has been told here.
     void addResource(const Child& child) {
         if (auto* module = child.as<KeyedDescription<Module>>()) {
-            if (module->value) node_.modules[*module->key] = module->value;
+            node_.modules[*module->key] = module->value;
         } else if (auto* mesh = child.as<KeyedDescription<Mesh>>()) {
             addMesh(*mesh);
         } else if (auto* field = child.as<KeyedDescription<Resource>>()) {
-            if (field->value) node_.fields[*field->key] = {field->value, nullptr};
+            node_.fields[*field->key] = {field->value, nullptr};
         } else if (auto* method = child.as<MethodDescription>()) {
-            if (method->value) node_.methods[*method->key] = {method->value, *method->enabled};
+            node_.methods[*method->key] = {method->value, *method->enabled};
         } else if (auto node = child.built<SceneNode>()) {
             node_.children.push_back(std::move(node));
-        } else if (child.resource) {
+        } else if (child.description->id.given) {
             node_.fields[*child.description->id] = {{}, child.resource};
         }
     }
 
     void addMesh(const KeyedDescription<Mesh>& mesh) {
-        if (!mesh.value) return;
         node_.meshes[*mesh.key] = mesh.value;
+        if (!mesh.value) return;
         node_.localBounds =
             node_.localBounds.enlarged({mesh.value->boundsMin(), mesh.value->boundsMax()});
     }

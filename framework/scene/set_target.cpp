@@ -109,13 +109,15 @@ Ref<Texture> findTexture(const Attr<Target>& name, BindContext& context) {
     const std::size_t colon = name->name.find(':');
     if (colon == std::string::npos) {
         const auto value = node->values.find(name->name);
-        if (value != node->values.end() && value->second.texture) return value->second.texture;
+        const bool sampler =
+            value != node->values.end() && value->second.type == NodeValue::Type::sampler;
+        if (sampler) return value->second.texture; // if empty, told at the node
         context.reportMissing(name, *node, "texture");
         return {};
     }
     const auto module = node->modules.find(name->name.substr(0, colon));
     const std::string sampler = name->name.substr(colon + 1);
-    if (module != node->modules.end()) {
+    if (module != node->modules.end() && module->second) {
         for (const InitialUniform& uniform : module->second->uniforms()) {
             if (uniform.name == sampler && uniform.texture) return uniform.texture;
         }
