@@ -25,9 +25,12 @@ void main() {
     float distance = max(max(way.x, way.y), deformation.camera.z);
     blend = clamp((distance - deformation.blending.x) / deformation.blending.y, 0.0, 1.0);
 
-    point = vec3(uv * deformation.offset.z + deformation.offset.xy, mix(zfc.z, zfc.y, blend));
-    // The skirt, slightly outside and below, hides the gaps that rounding leaves between quads.
-    vec3 skirt = (vertex - vec3(uv, 1.0)) * deformation.offset.z;
+    float part = tilePart(elevationSampler);
+    float z = part < 1.0 ? zfc.z : mix(zfc.z, zfc.y, blend);
+    point = vec3(uv * deformation.offset.z + deformation.offset.xy, z);
+    // The skirt, slightly outside and below, hides gaps between quads: those that rounding leaves,
+    // and those between tiles of different levels when some are missing.
+    vec3 skirt = (vertex - vec3(uv, 1.0)) * deformation.offset.z / vec3(1.0, 1.0, part);
     gl_Position = deformation.localToScreen * vec4(point + skirt, 1.0);
 }
 #endif
@@ -95,7 +98,7 @@ vec3 surface(vec3 p, vec3 n) {
 
 void main() {
     vec4 n = textureTile(normalSampler, uv) * 2.0 - 1.0;
-    vec2 slope = mix(n.xy, n.zw, blend);
+    vec2 slope = tilePart(normalSampler) < 1.0 ? n.xy : mix(n.xy, n.zw, blend);
     vec3 normal = vec3(slope, sqrt(max(0.0, 1.0 - dot(slope, slope))));
 
     vec3 eye = vec3(deformation.camera.xy * deformation.offset.z + deformation.offset.xy,

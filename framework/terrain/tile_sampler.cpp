@@ -103,6 +103,9 @@ void TileSampler::require(FrameBuilder& frame) {
 void TileSampler::reportShortage(Diagnostics& diagnostics) {
     if (!refused_) return;
     const TileCache::Shortage shortage = producer().cache().shortage();
+    // The next frames of a flight may need some more; nobody wants to hear of each.
+    if (shortage.needed <= reportedNeed_ + reportedNeed_ / 4) return;
+    reportedNeed_ = shortage.needed;
     diagnostics.error("cache-full", parameters_.place,
                       shortage.message + "; what is missing is drawn with coarser tiles",
                       "a larger storage, a smaller splitFactor, or a lower maxLevel");

@@ -36,7 +36,8 @@ public:
     TileProducer& producer() const { return *parameters_.producer; }
 
     /// Releases and acquires tiles for the quads of now. The frame waits for those that have to be
-    /// produced. A full cache is reported once ("cache-full"); quads then do with ancestors.
+    /// produced. A full cache is reported ("cache-full"), and again when a quarter more is needed;
+    /// quads then do with ancestors.
     void update(const TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame);
 
     /// The tile of a quad, or of its nearest ancestor that has one with data.
@@ -66,6 +67,7 @@ private:
     std::vector<int> heldQuads_;           ///< indices with a tile
     std::vector<int> queue_;               ///< quads to visit, coarse ones first
     bool refused_ = false;                 ///< the last update did not get all tiles
+    int reportedNeed_ = 0;                 ///< slots that the last report asked for
 };
 
 /// <tileSampler>

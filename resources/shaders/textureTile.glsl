@@ -8,6 +8,14 @@ struct samplerTile {
     vec3 tileSize;           // of the quad in the pool: du, dv; and in texels of a whole tile
 };
 
+// How much of the tile the quad is, along an edge: 1 of its own tile, 1/2 of its parent's, and so on.
+// An ancestor's tile is the finest that is known of a place: shaders that blend the levels show its
+// own level, whatever the quad's.
+float tilePart(samplerTile tex) {
+    float texels = tex.tileSize.x * float(textureSize(tex.tilePool, 0).x);
+    return 1.0 / round(tex.tileSize.z / texels);
+}
+
 // The value at uv in [0,1]^2 of the quad.
 vec4 textureTile(samplerTile tex, vec2 uv) {
     vec3 uvl = tex.tileCoords + vec3(uv * tex.tileSize.xy, 0.0);
