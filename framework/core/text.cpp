@@ -114,11 +114,16 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& c
 }
 
 std::string listOfNames(const std::vector<std::string>& names) {
+    // Nobody reads more; the nearest name is told apart from the list.
+    constexpr std::size_t kMost = 24;
+    const bool all = names.size() <= kMost;
+    const std::size_t shown = all ? names.size() : kMost / 2;
     std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    for (std::size_t i = 0; i < shown; ++i) {
+        if (i > 0) text += all && i + 1 == shown ? " or " : ", ";
         text += "'" + names[i] + "'";
     }
+    if (!all) text += " or " + std::to_string(names.size() - shown) + " others";
     return text;
 }
 

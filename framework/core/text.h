@@ -15,7 +15,7 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// empty text when none is near enough to be a likely misspelling.
 std::string nearestName(std::string_view name, const std::vector<std::string>& candidates);
 
-/// "'a', 'b' or 'c'".
+/// "'a', 'b' or 'c'"; of a very long list only the first ones, and how many more there are.
 std::string listOfNames(const std::vector<std::string>& names);
 
 /// What an author wrote, as messages show it: in single quotes, on one line, without control

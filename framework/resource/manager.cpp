@@ -173,11 +173,20 @@ void ResourceManager::describeAndBuild(ResourceEntry& entry, const FoundElement&
     const bool lacksPlanned = complete && !canBuild(*entry.declaration, *entry.description);
     const bool planned = entry.declaration->planned || lacksPlanned;
     entry.state = planned ? ResourceEntry::State::planned : ResourceEntry::State::failed;
+    // Its builder won't run, and so can't tell which files are missing.
+    if (!parsed.valid || !complete) findFiles(parsed.files);
     if (!parsed.valid || !complete || planned) return;
 
     Diagnostics building;
     build(entry, building);
     forward(building);
+}
+
+void ResourceManager::findFiles(const std::vector<AttributeText>& files) {
+    Diagnostics local;
+    for (const AttributeText& file : files)
+        library_.findFile(file.text, file.valuePlace, local);
+    forward(local);
 }
 
 // False if a reference of the element itself could not be had. One that a nested element lacks

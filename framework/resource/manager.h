@@ -63,6 +63,7 @@ private:
     ResourceEntry& add(const std::string& name);
     void warnName(const std::string& name, const FoundElement& found, const Place& place);
     void describeAndBuild(ResourceEntry& entry, const FoundElement& found, const Place& place);
+    void findFiles(const std::vector<AttributeText>& files);
     void checkUnused(const XmlElement& element);
     bool loadReferences(ResourceEntry& entry, bool onDemand);
     void build(ResourceEntry& entry, Diagnostics& local);

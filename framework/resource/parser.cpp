@@ -21,7 +21,7 @@ public:
 
     ParsedElement parse(const XmlElement& element, const ElementDeclaration& declaration,
                         bool keyed, int depth) {
-        ParsedElement result{&declaration, declaration.makeDescription(), true};
+        ParsedElement result{&declaration, declaration.makeDescription(), true, {}};
         result.description->tag = element.tag();
         result.description->place = element.place();
         result.description->name.place = result.description->id.place = element.place();
@@ -41,6 +41,8 @@ public:
         }
         return result;
     }
+
+    const std::vector<AttributeText>& files() const { return files_; }
 
 private:
     bool readAttributes(const XmlElement& element, const ElementDeclaration& declaration,
@@ -95,6 +97,7 @@ private:
             diagnostics_.warning("not-built-yet", xml.namePlace,
                                  "attribute '" + a.name + "' has no effect yet");
         }
+        if (a.kind == ValueKind::file) files_.push_back({xml.value, xml.namePlace, xml.valuePlace});
         return !a.read ||
                a.read({xml.value, xml.namePlace, xml.valuePlace}, description, diagnostics_);
     }
@@ -241,13 +244,17 @@ private:
 
     const Registry& registry_;
     Diagnostics& diagnostics_;
+    std::vector<AttributeText> files_;
 };
 
 } // namespace
 
 ParsedElement parseElement(const XmlElement& element, const ElementDeclaration& declaration,
                            const Registry& registry, Diagnostics& diagnostics) {
-    return Parser(registry, diagnostics).parse(element, declaration, false, 0);
+    Parser parser(registry, diagnostics);
+    ParsedElement parsed = parser.parse(element, declaration, false, 0);
+    parsed.files = parser.files();
+    return parsed;
 }
 
 std::vector<std::pair<const AttributeDeclaration*, RefBase*>>

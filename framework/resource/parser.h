@@ -16,6 +16,8 @@ struct ParsedElement {
     const ElementDeclaration* declaration = nullptr;
     std::shared_ptr<ElementDescription> description;
     bool valid = false;
+    /// Data files that the element and those in it name, whether they exist or not.
+    std::vector<AttributeText> files;
 };
 
 /// Reads and validates an element of a declared type with all that is nested in it. Reports every

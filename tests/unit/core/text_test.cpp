@@ -57,6 +57,9 @@ TEST_CASE("names are listed as in a sentence") {
     CHECK(listOfNames({"a"}) == "'a'");
     CHECK(listOfNames({"a", "b"}) == "'a' or 'b'");
     CHECK(listOfNames({"a", "b", "c"}) == "'a', 'b' or 'c'");
+    const std::string many = listOfNames(std::vector<std::string>(25, "a"));
+    CHECK(many.starts_with("'a', 'a', "));
+    CHECK(many.ends_with("'a' or 13 others"));
 }
 
 TEST_CASE("what an author wrote is quoted on one short line") {
