@@ -37,6 +37,12 @@ public:
     /// nothing. A value that the uniform has already is not sent again.
     template <class T>
     void set(const T& value) const {
+        using Traits = UniformTraits<T>;
+        if (!active()) return;
+        // The usual case, without a detour through doubles. Booleans have another size here.
+        if (Traits::kind != UniformKind::boolean &&
+            setBytes(Traits::kind, Traits::columns, Traits::rows, &value, sizeof value))
+            return;
         setComponents(uniformComponents(value));
     }
     /// Sets any value as it was read.
@@ -57,6 +63,8 @@ private:
         : program_(&program)
         , slot_(slot) {}
     void setComponents(const UniformComponents& components) const;
+    bool setBytes(UniformKind kind, int columns, int rows, const void* bytes,
+                  std::size_t size) const;
 
     Program* program_ = nullptr;
     int slot_ = -1;

@@ -7,6 +7,8 @@
 
 #include <glad/gl.h>
 
+#include <cstring>
+
 namespace terrane {
 
 namespace {
@@ -68,6 +70,23 @@ const UniformType& UniformHandle::type() const {
 
 void UniformHandle::setComponents(const UniformComponents& components) const {
     if (program_) program_->setComponents(slot_, components);
+}
+
+// Only for uniforms of exactly this type, and not in a block, whose layout differs.
+bool UniformHandle::setBytes(UniformKind kind, int columns, int rows, const void* bytes,
+                             std::size_t size) const {
+    Program::Slot& slot = program_->resolved(slot_);
+    const UniformType& type = *slot.uniform.type;
+    const bool same = type.kind == kind && type.columns == columns && type.rows == rows;
+    if (!same || slot.uniform.block >= 0) return false;
+    UniformValue& value = slot.value;
+    const bool typed = value.type() == type;
+    if (slot.known && typed && std::memcmp(value.data(), bytes, size) == 0) return true;
+    if (!typed) value = UniformValue(type);
+    std::memcpy(value.data(), bytes, size);
+    slot.known = true;
+    sendUniform(program_->bindings_.context, program_->name_, slot.uniform.location, value);
+    return true;
 }
 
 void UniformHandle::set(const UniformValue& value) const {
