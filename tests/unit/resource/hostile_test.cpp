@@ -127,8 +127,8 @@ TEST_CASE("folders and unreadable files named like resources are told") {
     std::filesystem::create_symlink("gone", world.folder.path() / "broken.xml");
     world.load(R"(<apple name="a" friends="folder,loop,broken" file="folder.png"/>)");
     CHECK(reports(world.diagnostics) ==
-          std::vector<std::string>{"unknown-resource a.xml:1:36", "unknown-resource a.xml:1:43",
-                                   "unknown-resource a.xml:1:48", "file-missing a.xml:1:62"});
+          std::vector<std::string>{"unknown-resource a.xml:1:35", "unknown-resource a.xml:1:42",
+                                   "unknown-resource a.xml:1:47", "file-missing a.xml:1:61"});
 }
 
 TEST_CASE("ten thousand entries are loaded in a moment") {
