@@ -46,21 +46,10 @@ NodeUniforms nodeUniforms(const Deformation& deformation, const TerrainState& st
     return uniforms;
 }
 
-QuadUniforms quadUniforms(const Deformation& deformation, const TerrainState& state,
-                          const TerrainQuad& quad) {
-    QuadUniforms uniforms;
-    uniforms.offset = single<glm::vec4>(glm::dvec4(quad.ox, quad.oy, quad.l, quad.level));
+namespace {
 
-    const glm::dvec3& c = state.localCamera;
-    const double x = clampFar((c.x - quad.ox) / quad.l);
-    const double y = clampFar((c.y - quad.oy) / quad.l);
-    const double above = clampFar((c.z - state.groundHeight) / (quad.l * state.distFactor));
-    const double elevation = std::isfinite(c.z) ? c.z : kFarAway * quad.l;
-    uniforms.camera = single<glm::vec4>(glm::dvec4(x, y, above, elevation));
-
-    const glm::dmat3 tileToLocal{{quad.l, 0, 0}, {0, quad.l, 0}, {-x * quad.l, -y * quad.l, 1}};
-    uniforms.tileToTangent = single<glm::mat3>(state.localToTangent * tileToLocal);
-
+void setCorners(QuadUniforms& uniforms, const Deformation& deformation, const TerrainState& state,
+                const TerrainQuad& quad) {
     glm::dmat4 corners;
     glm::dmat4 verticals;
     for (int i = 0; i < 4; ++i) {
@@ -72,8 +61,31 @@ QuadUniforms quadUniforms(const Deformation& deformation, const TerrainState& st
     }
     uniforms.screenQuadCorners = single<glm::mat4>(corners);
     uniforms.screenQuadVerticals = single<glm::mat4>(verticals);
-    uniforms.tangentFrameToWorld =
-        single<glm::mat3>(glm::dmat3(state.localToWorld) * deformation.quadFrame(quad.box()));
+}
+
+} // namespace
+
+QuadUniforms quadUniforms(const Deformation& deformation, const TerrainState& state,
+                          const TerrainQuad& quad, const QuadUniformNeeds& needs) {
+    QuadUniforms uniforms;
+    uniforms.offset = single<glm::vec4>(glm::dvec4(quad.ox, quad.oy, quad.l, quad.level));
+
+    const glm::dvec3& c = state.localCamera;
+    const double x = clampFar((c.x - quad.ox) / quad.l);
+    const double y = clampFar((c.y - quad.oy) / quad.l);
+    const double above = clampFar((c.z - state.groundHeight) / (quad.l * state.distFactor));
+    const double elevation = std::isfinite(c.z) ? c.z : kFarAway * quad.l;
+    uniforms.camera = single<glm::vec4>(glm::dvec4(x, y, above, elevation));
+
+    if (needs.tileToTangent) {
+        const glm::dmat3 tileToLocal{{quad.l, 0, 0}, {0, quad.l, 0}, {-x * quad.l, -y * quad.l, 1}};
+        uniforms.tileToTangent = single<glm::mat3>(state.localToTangent * tileToLocal);
+    }
+    if (needs.corners) setCorners(uniforms, deformation, state, quad);
+    if (needs.tangentFrameToWorld) {
+        uniforms.tangentFrameToWorld =
+            single<glm::mat3>(glm::dmat3(state.localToWorld) * deformation.quadFrame(quad.box()));
+    }
     return uniforms;
 }
 

@@ -35,7 +35,15 @@ struct QuadUniforms {
 };
 
 NodeUniforms nodeUniforms(const Deformation& deformation, const TerrainState& state);
+
+/// The fields that take some computing, which few programs have all of. What isn't needed keeps its
+/// initial value.
+struct QuadUniformNeeds {
+    bool tileToTangent = true;
+    bool corners = true; ///< screenQuadCorners, screenQuadVerticals, screenQuadCornerNorms
+    bool tangentFrameToWorld = true;
+};
 QuadUniforms quadUniforms(const Deformation& deformation, const TerrainState& state,
-                          const TerrainQuad& quad);
+                          const TerrainQuad& quad, const QuadUniformNeeds& needs = {});
 
 } // namespace terrane

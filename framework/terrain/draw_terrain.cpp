@@ -43,6 +43,13 @@ void DeformationUniforms::set(const QuadUniforms& values) const {
     tangentFrameToWorld.set(values.tangentFrameToWorld);
 }
 
+QuadUniformNeeds DeformationUniforms::needs() const {
+    return {.tileToTangent = tileToTangent.active(),
+            .corners = screenQuadCorners.active() || screenQuadVerticals.active() ||
+                       screenQuadCornerNorms.active(),
+            .tangentFrameToWorld = tangentFrameToWorld.active()};
+}
+
 SamplerUniforms::SamplerUniforms(Program& program, const std::string& name)
     : pool(program.find(name + ".tilePool"))
     , coords(program.find(name + ".tileCoords"))
@@ -87,10 +94,11 @@ bool DrawTerrainTask::locateTiles(const TerrainQuad& quad) {
 void DrawTerrainTask::gather() {
     quads_.clear();
     tiles_.clear();
+    const QuadUniformNeeds needs = deformationUniforms_.needs();
     terrain_.forEachLeaf([&](const TerrainQuad& quad) {
         if (culling_ && !quad.isVisible()) return;
         if (!locateTiles(quad)) return;
-        quads_.push_back(quadUniforms(terrain_.deformation(), terrain_.state(), quad));
+        quads_.push_back(quadUniforms(terrain_.deformation(), terrain_.state(), quad, needs));
     });
 }
 

@@ -22,6 +22,8 @@ struct DeformationUniforms {
     DeformationUniforms() = default;
     void set(const NodeUniforms& values) const;
     void set(const QuadUniforms& values) const;
+    /// What the program has at the moment.
+    QuadUniformNeeds needs() const;
 
     UniformHandle blending, localToScreen, radius, localToWorld;
     UniformHandle offset, camera, tileToTangent, screenQuadCorners, screenQuadVerticals,

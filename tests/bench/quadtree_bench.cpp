@@ -51,20 +51,22 @@ void quadtreeTraversal(benchmark::State& state) {
 }
 BENCHMARK(quadtreeTraversal);
 
-void uniformsOfVisibleQuads(benchmark::State& state) {
+void uniforms(benchmark::State& state, const QuadUniformNeeds& needs) {
     TerrainNode terrain = mountainTerrain();
     terrain.update(flight().front());
     std::int64_t quads = 0;
     for (auto _ : state) {
         terrain.forEachLeaf([&](const TerrainQuad& quad) {
             if (!quad.isVisible()) return;
-            benchmark::DoNotOptimize(quadUniforms(terrain.deformation(), terrain.state(), quad));
+            benchmark::DoNotOptimize(
+                quadUniforms(terrain.deformation(), terrain.state(), quad, needs));
             ++quads;
         });
     }
     countQuads(state, quads);
 }
-BENCHMARK(uniformsOfVisibleQuads);
+BENCHMARK_CAPTURE(uniforms, all, QuadUniformNeeds{});
+BENCHMARK_CAPTURE(uniforms, ofTheMountains, QuadUniformNeeds{false, false, false});
 
 } // namespace
 } // namespace terrane::bench
