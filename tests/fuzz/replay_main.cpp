@@ -25,9 +25,9 @@ void run(const std::string& bytes) {
 // Bytes that mean something in one of the formats.
 std::string mutated(std::string bytes, const std::vector<std::string>& corpus,
                     std::mt19937& random) {
-    static const std::string special("<>\"'/&;=!-[]?#.,+$ \n\r\t\0\xff"
-                                     "019",
-                                     29);
+    using namespace std::string_literals; // keeps the zero byte
+    static const std::string special = "<>\"'/&;=!-[]?#.,+$ \n\r\t\0\xff"
+                                       "019"s;
     const auto at = [&](const std::string& text) {
         return text.empty() ? 0 : random() % (text.size() + 1);
     };
