@@ -121,7 +121,7 @@ std::string shownPath(const fs::path& path) {
 fs::path homeFolder() {
     if (const char* home = std::getenv("TERRANE_HOME")) return home;
     for (const fs::path& file : {moduleFile(), fs::path("/proc/self/exe")}) {
-        const fs::path home = homeAbove(file);
+        fs::path home = homeAbove(file);
         if (!home.empty()) return home;
     }
     return {};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <glm/common.hpp>
 #include <utility>
 
 namespace terrane {

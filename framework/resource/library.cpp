@@ -55,7 +55,7 @@ std::string imageXml(const std::string& name) {
 // The texture or mesh that a name stands for by itself, whatever archives say; an empty text for
 // names that are looked up.
 std::string fixedXml(const std::string& name) {
-    if (const std::string xml = renderbufferXml(name); !xml.empty()) return xml;
+    if (std::string xml = renderbufferXml(name); !xml.empty()) return xml;
     if (isImage(name)) return imageXml(name);
     const bool program = name.find(';') != std::string::npos;
     if (!program && name.ends_with(".mesh")) return "<mesh source=\"" + escaped(name) + "\"/>";

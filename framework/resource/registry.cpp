@@ -40,7 +40,7 @@ std::vector<std::string> Registry::tagsOf(std::type_index interface) const {
 }
 
 std::string Registry::describeInterface(std::type_index interface) const {
-    const std::string tags = listOfNames(tagsOf(interface));
+    std::string tags = listOfNames(tagsOf(interface));
     const auto named = interfaceNames_.find(interface);
     if (named == interfaceNames_.end()) return tags;
     return tags.empty() ? named->second : named->second + " (" + tags + ")";

@@ -17,6 +17,7 @@ void require(bool condition) {
 
 } // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it so.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto source = std::make_shared<SourceFile>(
         "a.xml", std::string(reinterpret_cast<const char*>(data), size));

@@ -31,6 +31,7 @@ Files split(const std::string& text) {
 
 } // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it so.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Files files = split(std::string(reinterpret_cast<const char*>(data), size));
     GlslFiles finder;

@@ -7,6 +7,7 @@
 
 using namespace terrane;
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it so.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto source = std::make_shared<SourceFile>(
         "a.mesh", std::string(reinterpret_cast<const char*>(data), size));
