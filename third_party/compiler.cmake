@@ -9,7 +9,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
     # When it optimises, GCC 12 sees overflows inside std::string that are not there (its bugs 105329
     # and 105651), and members of an empty std::optional as used.
     target_compile_options(terrane_options INTERFACE
-        $<$<NOT:$<CONFIG:Debug>>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds;-Wno-maybe-uninitialized>)
+        -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized)
 endif()
 if(TERRANE_WERROR)
     target_compile_options(terrane_options INTERFACE -Werror)
