@@ -192,13 +192,15 @@ private:
 int testFixtures(const Registry& registry, const std::vector<fs::path>& paths,
                  const FixtureOptions& options, std::ostream& out) {
     std::vector<fs::path> fixtures;
+    bool allThere = true;
     for (const fs::path& path : paths) {
         const std::vector<fs::path> found = findFixtures(path);
         if (found.empty())
             out << "no fixture (a folder with a script) at " << shownPath(path) << "\n";
+        allThere &= !found.empty();
         fixtures.insert(fixtures.end(), found.begin(), found.end());
     }
-    if (fixtures.empty()) return 2;
+    if (!allThere) return 2;
     Pool pool(registry, options, out);
     pool.run(fixtures);
     out << pool.passed << " passed, " << pool.failed << " failed, " << pool.skipped << " skipped"

@@ -96,7 +96,9 @@ bool Player::setScene(bool rootRequired) {
         return false;
     }
     resources_->resolve(settings_.root, typeid(SceneNode), nullptr);
-    if (!setScheduler() || !settings_.root) return false;
+    // Without a scheduler the methods are still bound, so that one run tells all that is wrong.
+    const bool scheduled = setScheduler();
+    if (!settings_.root) return false;
     scene_->setRoot(settings_.root);
     scene_->setCamera(settings_.camera, settings_.method);
     const Clock::time_point loaded = Clock::now();
@@ -104,7 +106,7 @@ bool Player::setScene(bool rootRequired) {
     const bool planned = scene_->plan();
     metrics_.startup.compile = milliseconds(loaded, Clock::now());
     setStartView();
-    return planned;
+    return planned && scheduled;
 }
 
 bool Player::setScheduler() {
@@ -140,7 +142,7 @@ void Player::setStartView() {
 }
 
 bool Player::frame() {
-    if (!controller_) return false;
+    if (!controller_ || !scene_->scheduler()) return false;
     const std::uint64_t allocations = options_.allocations ? options_.allocations() : 0;
     context_->makeCurrent();
     const Clock::time_point begin = Clock::now();

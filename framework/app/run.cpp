@@ -149,7 +149,12 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
         good = runScript(player, options, streams.err);
     else if (good)
         good = drawFrames(player, options, streams.err);
-    if (player.frames() > 0) good &= writeResults(player, options, streams.err);
+    if (player.frames() > 0) {
+        good &= writeResults(player, options, streams.err);
+    } else if (good && !options.screenshot.empty()) {
+        streams.err << "no frame has been drawn that a screenshot could show\n";
+        good = false;
+    }
     if (!options.player.keepGoing) good &= player.diagnostics().errors() == 0;
     return good ? 0 : 1;
 }

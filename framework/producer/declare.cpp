@@ -25,6 +25,11 @@ struct GpuTileStorageDescription : ElementDescription, SamplingAttributes {
     Attr<bool> tileMap = false;
 };
 
+// More than any cache needs, and few enough for the book-keeping of each.
+constexpr int kMostTiles = 1 << 22;
+// More than the memory of any machine that draws: a slip of the pen.
+constexpr double kMaxBytes = 64e9;
+
 std::shared_ptr<GpuTileStorage> buildGpuTileStorage(const GpuTileStorageDescription& d,
                                                     BuildContext& context) {
     const GlContext& gl = context.service<GlContext>();
@@ -43,6 +48,13 @@ std::shared_ptr<GpuTileStorage> buildGpuTileStorage(const GpuTileStorageDescript
         return nullptr;
     }
     auto storage = std::make_shared<GpuTileStorage>(gl, description, maxLayers);
+    for (const auto& texture : storage->textures()) {
+        if (texture->allocated()) continue;
+        context.diagnostics().error("out-of-memory", d.nTiles.place,
+                                    "there is no memory for so many tiles",
+                                    "fewer, or smaller, tiles");
+        return nullptr;
+    }
     storage->setPlaces(d.tileSize.place, d.internalformat.place);
     return storage;
 }
@@ -58,6 +70,7 @@ void declareGpuTileStorage(Registry& registry) {
         .attribute("nTiles", &D::nTiles, "number of tiles")
         .required()
         .atLeast(1)
+        .atMost(kMostTiles)
         .attribute("internalformat", &D::internalformat, "how pixels are stored",
                    internalFormatWords())
         .required()
@@ -80,9 +93,6 @@ struct CpuTileStorageDescription : ElementDescription {
     Attr<int> capacity = 1;
 };
 
-// More than any machine's memory: a slip of the pen.
-constexpr double kMaxBytes = 1e12;
-
 template <class T>
 void declareCpuTileStorage(Registry& registry, const std::string& tag, std::string summary) {
     using D = CpuTileStorageDescription;
@@ -98,6 +108,7 @@ void declareCpuTileStorage(Registry& registry, const std::string& tag, std::stri
         .attribute("capacity", &D::capacity, "number of tiles")
         .required()
         .atLeast(1)
+        .atMost(kMostTiles)
         .check([](const D& d, Diagnostics& diagnostics) {
             const double bytes =
                 1.0 * d.tileSize * d.tileSize * d.channels * d.capacity * sizeof(T);

@@ -19,18 +19,18 @@ TileCoordinates TileLayer::tileCoordinates(const TileId& tile) const {
     return terrane::tileCoordinates(tile, producer_->rootQuadSize());
 }
 
-// Terrain reference 3.5, with (x,y) the centre of the tile.
+// Terrain reference 3.5, with (x,y) the centre of the tile and r its R.
 TileLayer::Deformation TileLayer::deformation(const TileId& tile) const {
     const TileCoordinates quad = tileCoordinates(tile);
-    const double R = producer_->rootQuadSize() / 2;
+    const double r = producer_->rootQuadSize() / 2;
     const double x = quad.ox + quad.size / 2;
     const double y = quad.oy + quad.size / 2;
-    const double xx = x * x, yy = y * y, RR = R * R;
-    const double d = R * std::sqrt(xx + yy + RR);
-    const double e = R / (std::sqrt(yy + RR) * (xx + yy + RR));
-    return {.nx = {x * y / d, (yy + RR) / d},
-            .ny = {-(xx + RR) / d, -x * y / d},
-            .lx = {e * (yy + RR), 0},
+    const double xx = x * x, yy = y * y, rr = r * r;
+    const double d = r * std::sqrt(xx + yy + rr);
+    const double e = r / (std::sqrt(yy + rr) * (xx + yy + rr));
+    return {.nx = {x * y / d, (yy + rr) / d},
+            .ny = {-(xx + rr) / d, -x * y / d},
+            .lx = {e * (yy + rr), 0},
             .ly = {-e * x * y, e * d}};
 }
 

@@ -72,8 +72,9 @@ bool readNvidia(std::string_view line, GlslMessage& message) {
     reader.number(source);
     if (!(reader.text("(") && reader.number(message.line) && reader.text(")"))) return false;
     reader.text(" ");
-    if (!(reader.text(":") && (reader.text(" ") || true) && reader.severity(message.severity)))
-        return false;
+    if (!reader.text(":")) return false;
+    reader.text(" ");
+    if (!reader.severity(message.severity)) return false;
     reader.text(" ");
     if (reader.text("C")) reader.number(number);
     reader.text(":");

@@ -80,10 +80,9 @@ std::vector<GlslToken> scanGlsl(std::string_view text) {
         }
         const std::size_t end = tokenEnd(text, i);
         const std::string_view token = text.substr(i, end - i);
-        if (c == '#' && lineBegins)
-            directive = token;
-        else if (directive == "#" && kindOf(token) == GlslToken::Kind::identifier)
-            directive = token;
+        const bool hash = c == '#' && lineBegins;
+        const bool word = directive == "#" && kindOf(token) == GlslToken::Kind::identifier;
+        if (hash || word) directive = token;
         tokens.push_back({kindOf(token), i, token, directive});
         lineBegins = false;
         i = end;

@@ -4,6 +4,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <new>
 #include <set>
 
 namespace terrane {
@@ -211,9 +212,14 @@ bool ResourceManager::loadReferences(ResourceEntry& entry, bool onDemand) {
 void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
     BuildContext context(*this, entry, local);
     entry.state = ResourceEntry::State::loading;
-    buildChildren(*entry.description, context);
-    if (entry.declaration->build)
-        entry.instance = entry.declaration->build(*entry.description, context);
+    try {
+        buildChildren(*entry.description, context);
+        if (entry.declaration->build)
+            entry.instance = entry.declaration->build(*entry.description, context);
+    } catch (const std::bad_alloc&) {
+        local.error("out-of-memory", entry.description->place,
+                    "there is not enough memory for " + describe(entry));
+    }
     entry.state = entry.instance ? ResourceEntry::State::ready : ResourceEntry::State::failed;
     if (entry.instance)
         built_.push_back(&entry);

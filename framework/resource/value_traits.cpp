@@ -58,6 +58,7 @@ std::string rangeText(const AttributeDeclaration& a) {
     if (below && above && a.minimumExcluded)
         return fmt::format("more than {} and at most {}{}", a.minimum, a.maximum, unit);
     if (below && above) return fmt::format("{} to {}{}", a.minimum, a.maximum, unit);
+    if (!below && !above) return "a number";
     if (below)
         return fmt::format("{} {}{}", a.minimumExcluded ? "more than" : "at least", a.minimum,
                            unit);
@@ -67,8 +68,7 @@ std::string rangeText(const AttributeDeclaration& a) {
 bool inRange(double value, std::string_view piece, const Place& place,
              const AttributeDeclaration& a, Diagnostics& diagnostics) {
     const bool low = a.minimumExcluded ? value <= a.minimum : value < a.minimum;
-    const bool bounded = std::isfinite(a.minimum) || std::isfinite(a.maximum);
-    if (!low && !(value > a.maximum) && !(bounded && std::isnan(value))) return true;
+    if (!low && !(value > a.maximum) && !std::isnan(value)) return true;
     diagnostics.error("out-of-range", place,
                       "'" + a.name + "' of " + inQuotes(piece) + " is out of range", rangeText(a));
     return false;

@@ -61,10 +61,21 @@ BindContext::Call::Call(BindContext& context, SceneNode& owner, const std::strin
     , caller_(context.owner_) {
     const auto call = std::make_pair(&owner, method);
     auto& calls = context.calls_;
+    if (calls.size() >= kDeepestCall) return;
     if (std::find(calls.begin(), calls.end(), call) != calls.end()) return;
     calls.push_back(call);
     context.owner_ = &owner;
     entered_ = true;
+}
+
+bool BindContext::count(const Place& place) {
+    if (++bound_ <= kMostTasks) return true;
+    if (bound_ == kMostTasks + 1) {
+        diagnostics().error("too-many", place,
+                            "the methods of the frame call one another too many times",
+                            "at most " + std::to_string(kMostTasks) + " calls and rounds of loops");
+    }
+    return false;
 }
 
 BindContext::Call::~Call() {

@@ -59,8 +59,11 @@ public:
     /// For the duration of a loop's body, and, as in the original, after the loop.
     void setVariable(const std::string& name, SceneNode* node);
 
-    /// Enters a method of a node, until the object goes. Inactive when it is being bound already:
-    /// the methods call one another in a circle.
+    /// Counts a call or a round of a loop. False, reported once, beyond what any frame needs.
+    bool count(const Place& place);
+
+    /// Enters a method of a node, until the object goes. Inactive when it is being bound already,
+    /// since the methods then call one another in a circle, and when calls are nested too deeply.
     class Call {
     public:
         Call(BindContext& context, SceneNode& owner, const std::string& method);
@@ -76,8 +79,12 @@ public:
     };
 
 private:
+    static constexpr std::size_t kDeepestCall = 200;
+    static constexpr int kMostTasks = 100000;
+
     SceneManager& scene_;
     SceneNode* owner_;
+    int bound_ = 0;
     std::vector<std::pair<std::string, SceneNode*>> variables_;
     std::vector<std::pair<SceneNode*, std::string>> calls_;
 };

@@ -65,6 +65,7 @@ public:
         : culling_(d.culling)
         , parallel_(d.parallel) {
         for (SceneNode* node : context.scene().nodes(*d.flag)) {
+            if (!context.count(d.place)) break;
             context.setVariable(*d.var, node);
             iterations_.push_back({node, std::make_unique<BoundSequence>(tasks, context)});
         }
@@ -153,10 +154,12 @@ public:
             return nullptr;
         }
         if (!method->second.task) return nullptr; // told at the node
+        if (!context.count(name_.place)) return nullptr;
         const BindContext::Call call(context, *node, name_->name);
         if (!call) {
             context.diagnostics().error("cycle", name_.place,
-                                        "method '" + name_->name + "' calls itself");
+                                        "method '" + name_->name +
+                                            "' calls itself, or is called through too many others");
             return nullptr;
         }
         auto body = method->second.task->bind(context);

@@ -80,6 +80,7 @@ void declareDrawMesh(Registry& registry) {
         .required()
         .attribute("count", &D::count, "number of instances")
         .atLeast(0)
+        .atMost(1 << 20)
         .build([](const D& d, BuildContext&) { return std::make_shared<DrawMesh>(d); });
 }
 

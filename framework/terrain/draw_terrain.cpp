@@ -94,12 +94,22 @@ bool DrawTerrainTask::locateTiles(const TerrainQuad& quad) {
 void DrawTerrainTask::gather() {
     quads_.clear();
     tiles_.clear();
+    std::size_t missing = 0;
     const QuadUniformNeeds needs = deformationUniforms_.needs();
     terrain_.forEachLeaf([&](const TerrainQuad& quad) {
         if (culling_ && !quad.isVisible()) return;
-        if (!locateTiles(quad)) return;
+        if (!locateTiles(quad)) {
+            ++missing;
+            return;
+        }
         quads_.push_back(quadUniforms(terrain_.deformation(), terrain_.state(), quad, needs));
     });
+    if (missing > 0 && quads_.empty() && !told_) {
+        told_ = true;
+        scene_.resources().diagnostics().error(
+            "no-tiles", place_, "there are no tiles to draw the terrain with",
+            "an updateTileSamplers of this terrain before it, and room in the caches");
+    }
 }
 
 bool DrawTerrainTask::run() {

@@ -65,6 +65,7 @@ private:
     DeformationUniforms deformationUniforms_;
     std::vector<SamplerUniforms> samplerUniforms_;
 
+    bool told_ = false; ///< that there are no tiles
     std::vector<QuadUniforms> quads_;
     std::vector<TileLocation> tiles_; ///< one for each quad and sampler
 };

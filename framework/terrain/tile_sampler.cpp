@@ -112,6 +112,7 @@ void TileSampler::reportShortage(Diagnostics& diagnostics) {
 }
 
 TileLocation TileSampler::locate(const TerrainNode& terrain, const TerrainQuad& quad) const {
+    if (&terrain != terrain_) return {}; // never updated for this one
     for (const TerrainQuad* q = &quad;; q = &terrain.quads()[q->parent]) {
         const Tile* const tile = held(*q);
         if (tile && tile->done()) {

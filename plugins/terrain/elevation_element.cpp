@@ -141,6 +141,7 @@ void declareElevationProducer(Registry& registry) {
         .onDemand()
         .attribute("gridSize", &D::gridSize, "quads along an edge of the mesh of a terrain quad")
         .atLeast(1)
+        .atMost(16384)
         .attribute("noise", &D::noise, "amplitude of the noise of each level; none beyond")
         .unit("m")
         .attribute("flip", &D::flip, "the diagonals of the mesh follow the ridges")

@@ -91,6 +91,7 @@ void declareNormalProducer(Registry& registry) {
         .attribute("normalProg", &D::normalProg, "shader that computes normals")
         .attribute("gridSize", &D::gridSize, "quads along an edge of the mesh of a terrain quad")
         .atLeast(1)
+        .atMost(16384)
         .attribute("deform", &D::deform, "'sphere' for a face of a planet")
         .build(buildNormals);
 }

@@ -15,11 +15,19 @@ int makeNewArchive(const std::string& name, std::ostream& out, std::ostream& err
         err << "terrane: can't find the example archives\n";
         return 1;
     }
+    if (name.empty()) {
+        err << "terrane: the new archive needs a name\n";
+        return 2;
+    }
     if (fs::exists(name, error)) {
         err << "terrane: '" << name << "' exists already\n";
         return 1;
     }
     fs::create_directories(name, error);
+    if (error) {
+        err << "terrane: can't make " << name << ": " << error.message() << "\n";
+        return 1;
+    }
     for (const fs::directory_entry& entry : fs::directory_iterator(example, error)) {
         const std::string extension = entry.path().extension().string();
         if (extension != ".xml" && extension != ".glsl") continue; // no pictures, no tests
