@@ -100,6 +100,7 @@ bool Player::setScene(bool rootRequired) {
     const bool scheduled = setScheduler();
     if (!settings_.root) return false;
     scene_->setRoot(settings_.root);
+    terrains_ = terrainsOf(*settings_.root);
     scene_->setCamera(settings_.camera, settings_.method);
     const Clock::time_point loaded = Clock::now();
     metrics_.startup.load += milliseconds(begin, loaded);
@@ -128,10 +129,7 @@ void Player::observe(Scheduler& scheduler) {
     scheduler.setErrorHandler([this](const Task& task, const std::string& message) {
         diagnostics_.error("task-failed", {}, std::string(task.name()) + ": " + message);
     });
-    scheduler.setObserver([this](const TaskRun& run) {
-        if (!run.task.everyFrame()) ++tileTasks_;
-        if (options_.trace) trace_.addTask(run);
-    });
+    if (options_.trace) scheduler.setObserver([this](const TaskRun& run) { trace_.addTask(run); });
 }
 
 void Player::setStartView() {
@@ -147,7 +145,6 @@ bool Player::frame() {
     context_->makeCurrent();
     const Clock::time_point begin = Clock::now();
     const bool moved = controller_->view != lastView_;
-    tileTasks_ = 0;
     advanceTime();
     placeCamera();
     clear();
@@ -156,6 +153,7 @@ bool Player::frame() {
     const Clock::time_point updated = Clock::now();
     const bool drawn = scene_->draw();
     const Clock::time_point end = Clock::now();
+    const SchedulerStatistics tasks = scene_->scheduler()->statistics();
     followGround();
     if (options_.allocations) metrics_.allocationsLastFrame = options_.allocations() - allocations;
 
@@ -169,11 +167,11 @@ bool Player::frame() {
                            .gl = milliseconds(end, Clock::now()),
                            .update = milliseconds(cleared, updated),
                            .draw = milliseconds(updated, end),
-                           .tiles = tileTasks_});
+                           .tiles = static_cast<int>(tasks.kept)});
     }
     if (frames_ == 0) metrics_.startup.firstFrame = milliseconds(begin, Clock::now());
     ++frames_;
-    countQuietFrame(moved);
+    countQuietFrame(!moved && tasks.waiting == 0 && tasks.kept == 0);
     return drawn;
 }
 
@@ -214,15 +212,13 @@ void Player::clear() {
 }
 
 void Player::followGround() {
-    const TerrainNode* const terrain = terrainBelowCamera(*scene_->root());
+    const TerrainNode* const terrain = terrainBelowCamera(terrains_);
     if (terrain) controller_->groundHeight = terrain->groundHeight();
 }
 
-void Player::countQuietFrame(bool moved) {
-    const bool waiting = scene_->scheduler()->statistics().waiting > 0;
+void Player::countQuietFrame(bool nothingMade) {
     const bool settled = controller_->groundHeight == lastGround_;
-    const bool quiet = !moved && !waiting && settled && tileTasks_ == 0;
-    quietFrames_ = quiet ? quietFrames_ + 1 : 0;
+    quietFrames_ = nothingMade && settled ? quietFrames_ + 1 : 0;
     lastView_ = controller_->view;
     lastGround_ = controller_->groundHeight;
 }

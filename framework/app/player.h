@@ -9,11 +9,11 @@
 #include "core/image.h"
 #include "ui/view_controller.h"
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace terrane {
 
@@ -24,6 +24,7 @@ class RenderTarget;
 class ResourceManager;
 class SceneManager;
 class Scheduler;
+class TerrainNode;
 struct ProgramBindings;
 
 /// Plays one archive: loads it, moves its camera, draws its frames into a picture of its own. Owns
@@ -108,7 +109,7 @@ private:
     void placeCamera();
     void clear();
     void followGround();
-    void countQuietFrame(bool moved);
+    void countQuietFrame(bool nothingMade);
 
     const Registry& registry_;
     const PlayerOptions options_;
@@ -116,7 +117,6 @@ private:
     Diagnostics diagnostics_;
     Metrics metrics_;
     Trace trace_;
-    std::atomic<int> tileTasks_ = 0; ///< of the current frame
     std::unique_ptr<Library> library_;
     std::unique_ptr<GlContext> context_;
     std::unique_ptr<ProgramBindings> bindings_;
@@ -125,6 +125,7 @@ private:
     std::unique_ptr<ResourceManager> resources_;
     std::unique_ptr<SceneManager> scene_;
     PlayerSettings settings_;
+    std::vector<TerrainNode*> terrains_; ///< of the scene
     std::unique_ptr<TerrainViewController> controller_;
 
     Clock::time_point start_{};

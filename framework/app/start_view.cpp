@@ -13,17 +13,11 @@ namespace terrane {
 
 namespace {
 
-/// Calls visit(TerrainNode&) in document order until it returns true.
-template <class Visit>
-bool visitTerrains(const SceneNode& node, Visit& visit) {
-    for (const auto& [id, field] : node.fields) {
-        auto* const terrain = dynamic_cast<TerrainNode*>(field.get());
-        if (terrain && visit(*terrain)) return true;
-    }
-    for (const auto& child : node.children) {
-        if (visitTerrains(*child, visit)) return true;
-    }
-    return false;
+void collect(const SceneNode& node, std::vector<TerrainNode*>& terrains) {
+    for (TerrainNode* terrain : node.fieldsOf<TerrainNode>())
+        terrains.push_back(terrain);
+    for (const auto& child : node.children)
+        collect(*child, terrains);
 }
 
 bool isBelowCamera(const TerrainNode& terrain) {
@@ -41,27 +35,23 @@ double sizeOf(const Box& box) {
 
 } // namespace
 
-TerrainNode* firstTerrain(const SceneNode& root) {
-    TerrainNode* found = nullptr;
-    auto visit = [&](TerrainNode& terrain) { return found = &terrain, true; };
-    visitTerrains(root, visit);
-    return found;
+std::vector<TerrainNode*> terrainsOf(const SceneNode& root) {
+    std::vector<TerrainNode*> terrains;
+    collect(root, terrains);
+    return terrains;
 }
 
-TerrainNode* terrainBelowCamera(const SceneNode& root) {
-    TerrainNode* found = nullptr;
-    auto visit = [&](TerrainNode& terrain) {
-        const bool below = isBelowCamera(terrain);
-        if (below || !found) found = &terrain;
-        return below;
-    };
-    visitTerrains(root, visit);
-    return found;
+TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains) {
+    for (TerrainNode* terrain : terrains) {
+        if (isBelowCamera(*terrain)) return terrain;
+    }
+    return terrains.empty() ? nullptr : terrains.front();
 }
 
 std::unique_ptr<TerrainViewController> makeViewController(const SceneNode& root) {
     std::unique_ptr<TerrainViewController> controller;
-    const TerrainNode* const terrain = firstTerrain(root);
+    const std::vector<TerrainNode*> terrains = terrainsOf(root);
+    const TerrainNode* const terrain = terrains.empty() ? nullptr : terrains.front();
     const double radius = terrain ? terrain->deformation().radius() : 0;
     double d = terrain ? terrain->parameters().size : sizeOf(root.worldBounds);
     if (terrain && dynamic_cast<const SphericalDeformation*>(&terrain->deformation())) {

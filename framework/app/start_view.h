@@ -4,18 +4,19 @@
 #include "ui/view_controller.h"
 
 #include <memory>
+#include <vector>
 
 namespace terrane {
 
 class SceneNode;
 class TerrainNode;
 
-/// The first terrain of a scene in document order, depth first; null when there is none.
-TerrainNode* firstTerrain(const SceneNode& root);
+/// The terrains of a scene in document order, depth first.
+std::vector<TerrainNode*> terrainsOf(const SceneNode& root);
 
 /// The terrain that the camera is above: the first one whose root quad it is over, else the first
 /// one; null when there is none. As of their last update.
-TerrainNode* terrainBelowCamera(const SceneNode& root);
+TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains);
 
 /// The view controller for the shape of the first terrain, with its start view: straight down from
 /// d = size (flat), 6 radii (planet) or 0.9 radii (cylinder) (terrain reference 5.1). Without a

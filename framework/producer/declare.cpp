@@ -159,9 +159,9 @@ void checkTileCache(const TileCacheDescription& d, Diagnostics& diagnostics) {
 
 std::shared_ptr<TileCache> buildTileCache(const TileCacheDescription& d, BuildContext& context) {
     const auto storage =
-        d.children.empty() ? share(d.storage) : d.children.front().built<TileStorage>();
+        d.children.empty() ? d.storage.shared() : d.children.front().built<TileStorage>();
     if (!storage) return nullptr; // reported when it was built
-    return std::make_shared<TileCache>(context.name(), storage, share(d.scheduler));
+    return std::make_shared<TileCache>(context.name(), storage, d.scheduler.shared());
 }
 
 void declareTileCache(Registry& registry) {

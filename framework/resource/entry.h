@@ -33,10 +33,4 @@ struct ResourceEntry {
     std::vector<std::filesystem::path> files; ///< data files that it was made from
 };
 
-/// What a reference gives now, kept alive on its own. Null when it gives nothing.
-template <class T>
-std::shared_ptr<T> share(const Ref<T>& ref) {
-    return ref.entry() ? std::static_pointer_cast<T>(ref.entry()->instance) : nullptr;
-}
-
 } // namespace terrane

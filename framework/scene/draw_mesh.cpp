@@ -27,14 +27,10 @@ public:
         , scene_(scene) {}
 
     bool run() override {
-        const DrawState& state = scene_.drawState();
-        if (!state.program) {
-            scene_.resources().diagnostics().error(
-                "no-program", place_, "there is no program to draw with", "a setProgram before it");
-            return false;
-        }
-        state.framebuffer->use();
-        state.program->use();
+        Program* const program = scene_.currentProgram(place_);
+        if (!program) return false;
+        scene_.drawState().framebuffer->use();
+        program->use();
         mesh_.draw(count_);
         return true;
     }

@@ -30,6 +30,14 @@ SceneManager::SceneManager(ResourceManager& resources, const GlContext& context,
 
 SceneManager::~SceneManager() = default;
 
+Program* SceneManager::currentProgram(const Place& place) const {
+    if (!drawState_.program) {
+        resources_.diagnostics().error("no-program", place, "there is no program to draw with",
+                                       "a setProgram before it");
+    }
+    return drawState_.program;
+}
+
 void SceneManager::setRoot(Ref<SceneNode> root) {
     root_ = std::move(root);
     changed();
@@ -82,6 +90,7 @@ void SceneManager::update(double time, double elapsed) {
     updateBounds(*root);
     if (const SceneNode* eye = camera()) cameraToWorld_ = eye->localToWorld;
     worldToCamera_ = glm::inverse(cameraToWorld_);
+    screenToCamera_ = glm::inverse(cameraToScreen);
     worldToScreen_ = cameraToScreen * worldToCamera_;
     worldPlanes_ = frustumPlanes(worldToScreen_);
     updateVisibility(*root, Visibility::partial);

@@ -43,6 +43,9 @@ public:
     ResourceManager& resources() const { return resources_; }
     const GlContext& context() const { return context_; }
     DrawState& drawState() { return drawState_; }
+    /// The program that a drawing task at this place of the archive is to use; null, with a
+    /// diagnostic ("no-program"), when none was set.
+    Program* currentProgram(const Place& place) const;
     /// The framebuffer that every setTarget attaches its textures to.
     Framebuffer& offscreen() { return *offscreen_; }
 
@@ -59,6 +62,7 @@ public:
     /// Eye to clip space, world to clip space, as of the last update.
     const glm::dmat4& worldToScreen() const { return worldToScreen_; }
     const glm::dmat4& cameraToWorld() const { return cameraToWorld_; }
+    const glm::dmat4& screenToCamera() const { return screenToCamera_; }
 
     /// Nodes with a flag (their name is one), in document order, depth first.
     const std::vector<SceneNode*>& nodes(const std::string& flag);
@@ -105,6 +109,7 @@ private:
     glm::dmat4 worldToScreen_{1};
     glm::dmat4 worldToCamera_{1};
     glm::dmat4 cameraToWorld_{1};
+    glm::dmat4 screenToCamera_{1};
     double time_ = 0;
     double elapsed_ = 0;
     std::uint64_t frameNumber_ = 0;

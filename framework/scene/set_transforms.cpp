@@ -34,21 +34,29 @@ public:
         if (!program) return false;
         if (program != program_) resolve(*program);
         const glm::dmat4& local = node_.localToWorld;
-        const glm::dmat4 toScreen =
-            screen_ ? glm::inverse(screen_->localToWorld) : scene_.worldToScreen();
         time_.set(glm::vec2(scene_.time(), scene_.elapsed()));
         localToWorld_.set(glm::mat4(local));
-        localToScreen_.set(glm::mat4(screen_ ? toScreen * local : node_.localToScreen));
         cameraToWorld_.set(glm::mat4(scene_.cameraToWorld()));
         cameraToScreen_.set(glm::mat4(scene_.cameraToScreen));
-        screenToCamera_.set(glm::mat4(glm::inverse(scene_.cameraToScreen)));
-        worldToScreen_.set(glm::mat4(toScreen));
+        screenToCamera_.set(glm::mat4(scene_.screenToCamera()));
+        setToScreen();
         worldPos_.set(glm::vec3(local[3]));
         worldDir_.set(glm::vec3(-local[2]));
         return true;
     }
 
 private:
+    void setToScreen() const {
+        if (!screen_) {
+            localToScreen_.set(glm::mat4(node_.localToScreen));
+            worldToScreen_.set(glm::mat4(scene_.worldToScreen()));
+            return;
+        }
+        const glm::dmat4 toScreen = glm::inverse(screen_->localToWorld);
+        localToScreen_.set(glm::mat4(toScreen * node_.localToWorld));
+        worldToScreen_.set(glm::mat4(toScreen));
+    }
+
     // The first program that uses the module, or the current one while none does.
     Program* receiver() const {
         if (module_ && !module_->programs().empty()) return module_->programs().front();

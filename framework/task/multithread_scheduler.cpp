@@ -265,6 +265,7 @@ void MultithreadScheduler::execute(Lock& lock, JobQueue::Index job, unsigned thr
         lock.lock();
 
         ++current_.executed;
+        current_.kept += !task.everyFrame();
         current_.failed += outcome.failed;
         current_.future += future;
         current_.onWorkers += thread > 0;

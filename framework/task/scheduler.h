@@ -24,6 +24,7 @@ struct TaskRun {
 /// What happened since the run before, on all threads.
 struct SchedulerStatistics {
     unsigned executed = 0;        ///< tasks whose run() was called
+    unsigned kept = 0;            ///< of the executed: those whose result is kept, such as tiles
     unsigned skipped = 0;         ///< of the others: inputs unchanged
     unsigned failed = 0;          ///< of the executed: threw
     unsigned future = 0;          ///< of the executed: due in a later frame

@@ -113,21 +113,17 @@ void DrawTerrainTask::gather() {
 }
 
 bool DrawTerrainTask::run() {
-    const DrawState& state = scene_.drawState();
-    if (!state.program) {
-        scene_.resources().diagnostics().error(
-            "no-program", place_, "there is no program to draw with", "a setProgram before it");
-        return false;
-    }
-    if (state.program != program_) resolve(*state.program);
+    Program* const program = scene_.currentProgram(place_);
+    if (!program) return false;
+    if (program != program_) resolve(*program);
     gather();
-    state.framebuffer->use();
+    scene_.drawState().framebuffer->use();
     deformationUniforms_.set(nodeUniforms(terrain_.deformation(), terrain_.state()));
     for (std::size_t i = 0; i < quads_.size(); ++i) {
         deformationUniforms_.set(quads_[i]);
         for (std::size_t s = 0; s < samplers_.size(); ++s)
             samplerUniforms_[s].set(tiles_[i * samplers_.size() + s]);
-        state.program->use();
+        program->use();
         mesh_.draw();
     }
     return true;

@@ -21,7 +21,7 @@ struct TerrainTaskDescription : ElementDescription {
 };
 
 /// The node in whose frame the terrain lies: that of the target, or the owner of the method.
-SceneNode& nodeOf(const Attr<Target>& name, BindContext& context) {
+SceneNode& frameNode(const Attr<Target>& name, BindContext& context) {
     SceneNode* const node = name->node.empty() ? nullptr : context.findNode(name->node);
     return node ? *node : context.owner();
 }
@@ -56,7 +56,7 @@ public:
     std::unique_ptr<BoundTask> bind(BindContext& context) const override {
         auto* const terrain = context.field<TerrainNode>(terrain_);
         if (!terrain) return nullptr;
-        return std::make_unique<BoundUpdateTerrain>(*terrain, nodeOf(terrain_, context),
+        return std::make_unique<BoundUpdateTerrain>(*terrain, frameNode(terrain_, context),
                                                     context.scene());
     }
 

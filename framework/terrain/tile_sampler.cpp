@@ -6,8 +6,6 @@
 #include "scene/frame_builder.h"
 #include "scene/scene_manager.h"
 
-#include <algorithm>
-
 namespace terrane {
 
 namespace {
@@ -122,11 +120,6 @@ TileLocation TileSampler::locate(const TerrainNode& terrain, const TerrainQuad& 
         }
         if (q->parent < 0) return {};
     }
-}
-
-bool TileSampler::isComplete() const {
-    return !refused_ && std::all_of(heldQuads_.begin(), heldQuads_.end(),
-                                    [&](int index) { return held_[index].tile->done(); });
 }
 
 namespace {

@@ -43,9 +43,6 @@ public:
     /// The tile of a quad, or of its nearest ancestor that has one with data.
     TileLocation locate(const TerrainNode& terrain, const TerrainQuad& quad) const;
 
-    /// Whether every tile that the last update wanted is there, with data.
-    bool isComplete() const;
-
 private:
     /// The tile held for the quad at this place of the pool.
     struct Held {

@@ -83,8 +83,8 @@ bool adoptLayers(const ElevationDescription& d, BuildContext& context,
                                  [](const Child& child) { return child.resource != nullptr; });
     if (!any) return true;
     context.load(d.blendProg);
-    parameters.blend = share(d.blendProg);
-    parameters.blendTarget = share(context.load<Texture>(target + "-1", d.place));
+    parameters.blend = d.blendProg.shared();
+    parameters.blendTarget = context.load<Texture>(target + "-1", d.place).shared();
     return parameters.blend && parameters.blendTarget;
 }
 
@@ -101,18 +101,18 @@ std::shared_ptr<ElevationProducer> buildElevations(const ElevationDescription& d
     const std::string target = "renderbuffer-" + std::to_string(size) + "-RGBA32F";
     ElevationProducer::Parameters parameters{
         .name = context.name(),
-        .cache = share(d.cache),
-        .residuals = share(d.residuals),
-        .upsample = share(d.upsampleProg),
+        .cache = d.cache.shared(),
+        .residuals = d.residuals.shared(),
+        .upsample = d.upsampleProg.shared(),
         .gridSize = d.gridSize,
         .noise = d.noise,
         .flip = d.flip,
         .face = faceOf(d, context.name()),
-        .target = share(context.load<Texture>(target, d.place)),
+        .target = context.load<Texture>(target, d.place).shared(),
     };
     if (parameters.residuals) {
         const std::string name = "renderbuffer-" + std::to_string(size) + "-R32F";
-        parameters.residualTexture = share(context.load<Texture>(name, d.place));
+        parameters.residualTexture = context.load<Texture>(name, d.place).shared();
         if (!parameters.residualTexture) return nullptr;
     }
     if (!parameters.target || !adoptLayers(d, context, parameters, target)) return nullptr;

@@ -64,12 +64,12 @@ std::shared_ptr<NormalProducer> buildNormals(const NormalDescription& d, BuildCo
     const std::string target = "renderbuffer-" + std::to_string(storage->tileSize()) + "-" + format;
     NormalProducer::Parameters parameters{
         .name = context.name(),
-        .cache = share(d.cache),
-        .elevations = share(d.elevations),
-        .program = share(d.normalProg),
+        .cache = d.cache.shared(),
+        .elevations = d.elevations.shared(),
+        .program = d.normalProg.shared(),
         .gridSize = d.gridSize,
         .sphere = *d.deform == "sphere",
-        .target = share(context.load<Texture>(target, d.place)),
+        .target = context.load<Texture>(target, d.place).shared(),
     };
     if (!parameters.target) return nullptr;
     return makeProducer<NormalProducer>(context.service<GlContext>(), std::move(parameters));

@@ -32,8 +32,8 @@ public:
         : player_(loadMountains()) {
         if (!player_) return;
         auto& resources = *player_->resources();
-        terrain_ = share(resources.get<TerrainNode>("groundTerrain"));
-        program_ = share(resources.get<Program>("weather;groundModule;"));
+        terrain_ = resources.get<TerrainNode>("groundTerrain").shared();
+        program_ = resources.get<Program>("weather;groundModule;").shared();
         samplers_ = player_->scene()->nodes("object").front()->fieldsOf<TileSampler>();
         deformation_ = DeformationUniforms(*program_);
         for (const TileSampler* sampler : samplers_)

@@ -2,15 +2,13 @@
 #pragma once
 
 #include "app/register_types.h"
-#include "core/files.h"
 #include "plugins/standard_plugins.h"
 #include "resource/registry.h"
+#include "temporary_folder.h"
 
 #include <doctest/doctest.h>
 
-#include <filesystem>
 #include <string>
-#include <unistd.h>
 
 namespace terrane {
 
@@ -25,29 +23,10 @@ inline const Registry& standardRegistry() {
     return registry;
 }
 
-/// A temporary folder with files, removed at the end.
-class ArchiveFolder {
+/// A temporary folder with archives in it.
+class ArchiveFolder : public test::TemporaryFolder {
 public:
-    ArchiveFolder() {
-        static int number = 0;
-        path_ = std::filesystem::temp_directory_path() /
-                ("terrane-app-" + std::to_string(getpid()) + "-" + std::to_string(++number));
-        std::filesystem::create_directories(path_);
-    }
-    ~ArchiveFolder() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    ArchiveFolder(const ArchiveFolder&) = delete;
-    ArchiveFolder& operator=(const ArchiveFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-    void write(const std::string& name, const std::string& text) {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        REQUIRE(writeFile(path_ / name, text));
-    }
+    void write(const std::string& name, const std::string& text) { file(name, text); }
 
     /// An archive that fills the picture with one colour: "r, g, b" from 0 to 1.
     void writeColour(const std::string& colour, const std::string& folder = ".") {
@@ -77,9 +56,6 @@ public:
     </node>
 </archive>
 )";
-
-private:
-    std::filesystem::path path_;
 };
 
 } // namespace terrane

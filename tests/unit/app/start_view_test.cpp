@@ -55,7 +55,7 @@ TEST_CASE("the first terrain decides how the camera moves and where it starts") 
     }
     SUBCASE("no terrain: as far away as the scene is large") {
         root.worldBounds = {{-1, 0, 0}, {1, 8, 3}};
-        CHECK(firstTerrain(root) == nullptr);
+        CHECK(terrainsOf(root).empty());
         CHECK(makeViewController(root)->view == View{.d = 8});
     }
     SUBCASE("an empty scene") {
@@ -75,12 +75,12 @@ TEST_CASE("the ground is that of the terrain below the camera") {
     };
     REQUIRE(terrainOf(*left).update(look(20)));
     REQUIRE(terrainOf(*right).update(look(0)));
-    CHECK(terrainBelowCamera(root) == &terrainOf(*right));
+    CHECK(terrainBelowCamera(terrainsOf(root)) == &terrainOf(*right));
     REQUIRE(terrainOf(*left).update(look(-9)));
-    CHECK(terrainBelowCamera(root) == &terrainOf(*left));
-    CHECK(terrainBelowCamera(SceneNode()) == nullptr);
+    CHECK(terrainBelowCamera(terrainsOf(root)) == &terrainOf(*left));
+    CHECK(terrainBelowCamera(terrainsOf(SceneNode())) == nullptr);
     // Above neither: the first one.
     REQUIRE(terrainOf(*left).update(look(50)));
     REQUIRE(terrainOf(*right).update(look(50)));
-    CHECK(terrainBelowCamera(root) == &terrainOf(*left));
+    CHECK(terrainBelowCamera(terrainsOf(root)) == &terrainOf(*left));
 }

@@ -1,40 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/files.h"
 
+#include "temporary_folder.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <unistd.h>
 
 using namespace terrane;
+using terrane::test::TemporaryFolder;
 namespace fs = std::filesystem;
-
-namespace {
-
-// A folder that goes with the test.
-class TemporaryFolder {
-public:
-    TemporaryFolder()
-        : path_(fs::temp_directory_path() / ("terrane-files-test." + std::to_string(::getpid()))) {
-        fs::remove_all(path_);
-        fs::create_directories(path_);
-    }
-    ~TemporaryFolder() { fs::remove_all(path_); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    fs::path file(const fs::path& name, std::string_view bytes = "x") const {
-        fs::create_directories((path_ / name).parent_path());
-        REQUIRE(writeFile(path_ / name, bytes));
-        return path_ / name;
-    }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
-
-} // namespace
 
 TEST_CASE("a file holds what was written") {
     const TemporaryFolder folder;

@@ -2,6 +2,8 @@
 #include "core/files.h"
 #include "core/image.h"
 
+#include "temporary_folder.h"
+
 #include <cstring>
 #include <doctest/doctest.h>
 #include <random>
@@ -286,11 +288,10 @@ TEST_CASE("PNG files have the same bytes each time, and come back as they were")
     const Image picture = gradient(64, 48, 3);
     const std::string bytes = encodePng(picture);
     CHECK(bytes == encodePng(picture));
-    const std::filesystem::path file = std::filesystem::temp_directory_path() /
-                                       ("terrane-image-test." + std::to_string(::getpid()));
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "picture.png";
     REQUIRE(writePng(file, picture));
     CHECK(readFile(file) == bytes);
-    std::filesystem::remove(file);
     CHECK_FALSE(writePng("/nowhere/at/all.png", picture));
     CHECK(decodeGood(bytes).bytes == picture.bytes);
 }

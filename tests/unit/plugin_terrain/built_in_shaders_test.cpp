@@ -31,9 +31,9 @@ struct ShaderFixture : TerrainFixture {
                                    "data = " +
                                    expression + "; }\n#endif\n");
         open("<module name=\"function\" version=\"330\" source=\"function.glsl\"/>\n");
-        program = share(manager->get<Program>("function;"));
+        program = manager->get<Program>("function;").shared();
         REQUIRE(program);
-        target = share(manager->get<Texture>("renderbuffer-16-RGBA32F"));
+        target = manager->get<Texture>("renderbuffer-16-RGBA32F").shared();
         REQUIRE(target);
     }
     ~ShaderFixture() { program = nullptr, target = nullptr; }

@@ -74,13 +74,13 @@ struct InputsFixture : TerrainFixture {
             .attribute("cache", &CacheOnly::cache, "cache")
             .required()
             .build([](const CacheOnly& d, BuildContext& c) {
-                return makeProducer<TestResiduals>(c.name(), share(d.cache));
+                return makeProducer<TestResiduals>(c.name(), d.cache.shared());
             });
         registry.resource<TestLayer, ProgramOnly, TileLayer>("testLayer", "A layer.")
             .attribute("program", &ProgramOnly::program, "program")
             .required()
             .build([](const ProgramOnly& d, BuildContext& c) {
-                return std::make_shared<TestLayer>(c.service<GlContext>(), share(d.program));
+                return std::make_shared<TestLayer>(c.service<GlContext>(), d.program.shared());
             });
     }
 };

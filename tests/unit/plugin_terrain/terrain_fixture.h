@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/files.h"
 #include "plugins/terrain/declare.h"
 #include "producer/declare.h"
 #include "producer/gpu_tile_storage.h"
@@ -15,17 +14,15 @@
 #include "resource/manager.h"
 #include "task/declare.h"
 #include "task/scheduler.h"
+#include "temporary_folder.h"
 
 #include <doctest/doctest.h>
 
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 #include <glm/vec4.hpp>
 
@@ -54,8 +51,6 @@ public:
         manager.reset();
         bindings.reset();
         CHECK(context->objectCount() == 0);
-        std::error_code ignored;
-        std::filesystem::remove_all(folder, ignored);
     }
     TerrainFixture(const TerrainFixture&) = delete;
     TerrainFixture& operator=(const TerrainFixture&) = delete;
@@ -64,20 +59,16 @@ public:
     void open(const std::string& entries) {
         graph.clear();
         manager.reset();
-        std::filesystem::create_directories(folder);
-        const auto file = folder / "archive.xml";
-        REQUIRE(writeFile(file, "<archive>\n<multithreadScheduler name=\"scheduler\"/>\n" +
-                                    entries + "</archive>\n"));
+        const auto file =
+            folder.file("archive.xml", "<archive>\n<multithreadScheduler name=\"scheduler\"/>\n" +
+                                           entries + "</archive>\n");
         library.emplace(archiveSearchPath(file, {}), diagnostics);
         REQUIRE(library->addArchive(file));
         manager.emplace(registry, *library, diagnostics);
         manager->services().provide(*context);
         manager->services().provide(*bindings);
     }
-    void write(const std::string& name, const std::string& text) {
-        std::filesystem::create_directories(folder);
-        REQUIRE(writeFile(folder / name, text));
-    }
+    void write(const std::string& name, const std::string& text) { folder.file(name, text); }
     TileProducer* producer(const std::string& name) {
         return manager->get<TileProducer>(name).get();
     }
@@ -118,8 +109,7 @@ public:
     Registry registry;
     std::unique_ptr<GlContext> context;
     std::optional<ProgramBindings> bindings;
-    std::filesystem::path folder = std::filesystem::temp_directory_path() /
-                                   ("terrane-plugin-terrain-" + std::to_string(getpid()));
+    TemporaryFolder folder;
     std::optional<Library> library;
     std::optional<ResourceManager> manager;
     TaskGraph graph;

@@ -1,27 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "producer/test_producer.h"
 
+#include "allocation_counter.h"
+
 #include <doctest/doctest.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<long> allocations{0};
-} // namespace
-
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 using namespace terrane;
 using terrane::test::ProducerFixture;
@@ -43,8 +25,8 @@ TEST_CASE_FIXTURE(ProducerFixture, "A frame that finds all its tiles allocates n
         return producer->findTile({3, 1, 1}, true, true) != nullptr && cache->room() == 100;
     };
     REQUIRE(frame());
-    const long before = allocations;
+    const long before = test::allocationCount();
     const bool good = frame();
-    CHECK(allocations - before == 0);
+    CHECK(test::allocationCount() == before);
     CHECK(good);
 }

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/files.h"
 #include "producer/declare.h"
 #include "producer/gpu_tile_storage.h"
 #include "producer/tile_cache.h"
 #include "render/context.h"
 #include "resource/manager.h"
 #include "task/declare.h"
+#include "temporary_folder.h"
 
 #include <doctest/doctest.h>
 
-#include <filesystem>
 #include <optional>
-
-#include <unistd.h>
 
 using namespace terrane;
 
@@ -24,19 +21,14 @@ struct ArchiveFixture {
         context->makeCurrent();
         declareScheduler(registry);
         declareProducers(registry);
-        std::filesystem::create_directories(folder);
     }
-    ~ArchiveFixture() {
-        manager.reset();
-        std::error_code ignored;
-        std::filesystem::remove_all(folder, ignored);
-    }
+    ~ArchiveFixture() { manager.reset(); }
     std::string load(const std::string& entries) {
         manager.reset();
         diagnostics.clear();
-        const auto file = folder / "archive.xml";
-        REQUIRE(writeFile(file, "<archive>\n<multithreadScheduler name=\"s\"/>\n" + entries +
-                                    "\n</archive>\n"));
+        const auto file =
+            folder.file("archive.xml", "<archive>\n<multithreadScheduler name=\"s\"/>\n" + entries +
+                                           "\n</archive>\n");
         library.emplace(archiveSearchPath(file, {}), diagnostics);
         REQUIRE(library->addArchive(file));
         manager.emplace(registry, *library, diagnostics);
@@ -53,8 +45,7 @@ struct ArchiveFixture {
     Diagnostics diagnostics;
     Registry registry;
     std::unique_ptr<GlContext> context = createOsMesaContext(diagnostics, {.debug = true});
-    std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("terrane-producer-" + std::to_string(getpid()));
+    test::TemporaryFolder folder;
     std::optional<Library> library;
     std::optional<ResourceManager> manager;
 };

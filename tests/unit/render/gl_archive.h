@@ -4,33 +4,24 @@
 #include "core/files.h"
 #include "gl_fixture.h"
 #include "resource/manager.h"
+#include "temporary_folder.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include <unistd.h>
-
 namespace terrane {
 
 /// A folder of files and an archive in it, whose resources are built in an off-screen context.
 struct GlArchive : GlFixture {
-    std::filesystem::path folder;
+    test::TemporaryFolder temporary;
+    std::filesystem::path folder = temporary.path();
     Registry registry;
     std::optional<Library> library;
     std::optional<ResourceManager> manager;
 
-    GlArchive() {
-        static int count = 0;
-        folder = std::filesystem::temp_directory_path() /
-                 ("terrane_gl_archive." + std::to_string(getpid()) + "." + std::to_string(++count));
-        std::filesystem::create_directories(folder);
-    }
-    ~GlArchive() {
-        manager.reset();
-        std::filesystem::remove_all(folder);
-    }
+    ~GlArchive() { manager.reset(); }
 
     /// Reads an archive with these elements, in place of an earlier one.
     void read(const std::string& elements) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "resource/manager.h"
-#include "resource/temporary_folder.h"
 #include "resource/test_types.h"
+#include "temporary_folder.h"
 
 #include <doctest/doctest.h>
 #include <memory>

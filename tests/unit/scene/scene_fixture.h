@@ -18,10 +18,9 @@
 #include "scene/set_target.h"
 #include "scene/set_transforms.h"
 #include "task/multithread_scheduler.h"
+#include "temporary_folder.h"
 
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -34,7 +33,7 @@ struct SceneFixture {
     Diagnostics diagnostics;
     std::unique_ptr<GlContext> context = createOsMesaContext(diagnostics, {.debug = true});
     Registry registry;
-    std::filesystem::path folder;
+    test::TemporaryFolder folder;
     std::unique_ptr<Library> library;
     std::unique_ptr<ProgramBindings> bindings;
     std::unique_ptr<RenderTarget> target;
@@ -56,24 +55,19 @@ struct SceneFixture {
         declareSetState(registry);
         declareSetTarget(registry);
         declareSetTransforms(registry);
-        std::string pattern = (std::filesystem::temp_directory_path() / "terrane-XXXXXX").string();
-        folder = mkdtemp(pattern.data());
     }
     ~SceneFixture() {
         scene.reset();
         resources.reset();
-        std::filesystem::remove_all(folder);
     }
 
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder / name) << text;
-    }
+    void write(const std::string& name, const std::string& text) const { folder.file(name, text); }
 
     /// Loads the entries of an archive and makes its node "scene" the root.
     void load(const std::string& entries) {
         write("archive.xml", "<archive>\n" + entries + "\n</archive>\n");
         SearchPath path;
-        path.add(folder);
+        path.add(folder.path());
         library = std::make_unique<Library>(path, diagnostics);
         REQUIRE(library->addArchive(folder / "archive.xml"));
         resources = std::make_unique<ResourceManager>(registry, *library, diagnostics);

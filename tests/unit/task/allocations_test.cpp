@@ -3,41 +3,11 @@
 
 #include "test_task.h"
 
+#include "allocation_counter.h"
+
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
-
-namespace {
-std::atomic<unsigned long> allocations = 0;
-
-void* counted(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-} // namespace
-
-void* operator new(std::size_t size) {
-    return counted(size);
-}
-void* operator new[](std::size_t size) {
-    return counted(size);
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 using namespace terrane;
 
@@ -70,10 +40,10 @@ TEST_CASE("A steady frame allocates nothing") {
         };
         for (int warmUp = 0; warmUp < 3; ++warmUp)
             frame();
-        const unsigned long before = allocations;
+        const long before = test::allocationCount();
         for (int i = 0; i < 20; ++i)
             frame();
-        CHECK(allocations == before);
+        CHECK(test::allocationCount() == before);
         CHECK(draws[0]->runs == 23);
         CHECK(tiles[99]->runs == 23);
         CHECK(tiles[98]->runs == 1);

@@ -2,6 +2,7 @@
 #include "resource/manager.h"
 #include "task/declare.h"
 #include "task/multithread_scheduler.h"
+#include "temporary_folder.h"
 
 #include "test_task.h"
 
@@ -10,8 +11,6 @@
 #include <filesystem>
 #include <string>
 
-#include <unistd.h>
-
 using namespace terrane;
 
 namespace {
@@ -19,20 +18,17 @@ namespace {
 /// An archive with one element, loaded.
 class Loaded {
 public:
-    explicit Loaded(const std::string& element)
-        : path_(std::filesystem::temp_directory_path() /
-                ("terrane-scheduler-" + std::to_string(getpid()) + ".xml")) {
+    explicit Loaded(const std::string& element) {
         declareScheduler(registry_);
-        writeFile(path_, "<archive>\n" + element + "\n</archive>\n");
-        library_.addArchive(path_);
+        library_.addArchive(
+            folder_.file("archive.xml", "<archive>\n" + element + "\n</archive>\n"));
         scheduler = manager_.get<Scheduler>("s").get();
     }
-    ~Loaded() { std::filesystem::remove(path_); }
 
     Diagnostics diagnostics;
 
 private:
-    std::filesystem::path path_;
+    test::TemporaryFolder folder_;
     Registry registry_;
     Library library_{SearchPath(), diagnostics};
     ResourceManager manager_{registry_, library_, diagnostics};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/terrain_node.h"
 
-#include "terrain/allocation_counter.h"
+#include "allocation_counter.h"
 #include "terrain/brute_force_quadtree.h"
 #include "terrain/cylindrical_deformation.h"
 #include "terrain/deformation_uniforms.h"

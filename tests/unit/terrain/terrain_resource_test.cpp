@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "temporary_folder.h"
 #include "terrain/terrain_resource.h"
 
 #include "resource/manager.h"
@@ -11,7 +12,6 @@
 #include <vector>
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 using namespace terrane;
 
@@ -20,24 +20,21 @@ namespace {
 // An archive of one terrain, loaded.
 class Loaded {
 public:
-    explicit Loaded(const std::string& attributes)
-        : file_(std::filesystem::temp_directory_path() /
-                ("terrain_resource_test." + std::to_string(getpid()) + ".xml")) {
-        writeFile(file_,
-                  "<archive>\n<terrainNode name=\"ground\" " + attributes + "/>\n</archive>\n");
+    explicit Loaded(const std::string& attributes) {
         declareTerrainNode(registry_);
         library_.emplace(SearchPath(), diagnostics);
-        library_->addArchive(file_);
+        library_->addArchive(
+            folder_.file("archive.xml", "<archive>\n<terrainNode name=\"ground\" " + attributes +
+                                            "/>\n</archive>\n"));
         manager_.emplace(registry_, *library_, diagnostics);
         terrain = manager_->get<TerrainNode>("ground").get();
     }
-    ~Loaded() { std::filesystem::remove(file_); }
 
     Diagnostics diagnostics;
     TerrainNode* terrain = nullptr;
 
 private:
-    std::filesystem::path file_;
+    test::TemporaryFolder folder_;
     Registry registry_;
     std::optional<Library> library_;
     std::optional<ResourceManager> manager_;

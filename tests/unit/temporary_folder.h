@@ -3,6 +3,8 @@
 
 #include "core/files.h"
 
+#include <doctest/doctest.h>
+
 #include <atomic>
 #include <filesystem>
 #include <string>
@@ -32,7 +34,7 @@ public:
     std::filesystem::path file(const std::filesystem::path& name,
                                std::string_view bytes = "x") const {
         std::filesystem::create_directories((path_ / name).parent_path());
-        writeFile(path_ / name, bytes);
+        REQUIRE(writeFile(path_ / name, bytes));
         return path_ / name;
     }
     std::filesystem::path folder(const std::filesystem::path& name) const {
@@ -40,6 +42,7 @@ public:
         return path_ / name;
     }
     const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
 private:
     std::filesystem::path path_;
