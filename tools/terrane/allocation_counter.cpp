@@ -13,6 +13,10 @@ std::uint64_t countedAllocations() {
     return 0;
 }
 
+bool allocationsAreCounted() {
+    return false;
+}
+
 #else
 
 namespace {
@@ -21,6 +25,10 @@ std::atomic<std::uint64_t> allocations{0};
 
 std::uint64_t countedAllocations() {
     return allocations.load(std::memory_order_relaxed);
+}
+
+bool allocationsAreCounted() {
+    return true;
 }
 
 void* operator new(std::size_t size) {

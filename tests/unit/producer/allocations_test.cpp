@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "producer/test_producer.h"
-
-#include "allocation_counter.h"
+#include "tools/terrane/allocation_counter.h"
 
 #include <doctest/doctest.h>
 
@@ -25,8 +24,8 @@ TEST_CASE_FIXTURE(ProducerFixture, "A frame that finds all its tiles allocates n
         return producer->findTile({3, 1, 1}, true, true) != nullptr && cache->room() == 100;
     };
     REQUIRE(frame());
-    const long before = test::allocationCount();
+    const auto before = countedAllocations();
     const bool good = frame();
-    CHECK(test::allocationCount() == before);
+    CHECK(countedAllocations() == before);
     CHECK(good);
 }

@@ -2,8 +2,7 @@
 #include "task/multithread_scheduler.h"
 
 #include "test_task.h"
-
-#include "allocation_counter.h"
+#include "tools/terrane/allocation_counter.h"
 
 #include <doctest/doctest.h>
 
@@ -40,10 +39,10 @@ TEST_CASE("A steady frame allocates nothing") {
         };
         for (int warmUp = 0; warmUp < 3; ++warmUp)
             frame();
-        const long before = test::allocationCount();
+        const auto before = countedAllocations();
         for (int i = 0; i < 20; ++i)
             frame();
-        CHECK(test::allocationCount() == before);
+        CHECK(countedAllocations() == before);
         CHECK(draws[0]->runs == 23);
         CHECK(tiles[99]->runs == 23);
         CHECK(tiles[98]->runs == 1);
