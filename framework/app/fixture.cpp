@@ -43,7 +43,7 @@ public:
         , options_(options) {}
 
     FixtureResult result() {
-        if (readScript() && hasNeeds() && chooseArchive()) play();
+        if (readScript() && hasNeeds() && hasCommands() && chooseArchive()) play();
         return result_;
     }
 
@@ -86,6 +86,14 @@ private:
             return false;
         }
         return true;
+    }
+
+    bool hasCommands() {
+        const bool found = std::any_of(lines_.begin(), lines_.end(), [](const ScriptLine& line) {
+            return !as<ArchiveCommand>(line) && !as<NeedsCommand>(line);
+        });
+        if (!found) fail(shownPath(folder_ / "script") + ": no command that proves anything");
+        return found;
     }
 
     bool chooseArchive() {

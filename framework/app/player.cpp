@@ -89,12 +89,14 @@ bool Player::openContext() {
 bool Player::setScene(bool rootRequired) {
     const Clock::time_point begin = Clock::now();
     // A file of resources for others has nothing to play and is fine for `check`.
-    if (!settings_.rootGiven && !library_->find(settings_.root.name)) {
+    const auto found = library_->find(settings_.root.name);
+    if (!settings_.rootGiven && !found) {
         if (!rootRequired) return false;
-        diagnostics_.error("no-root", {}, "the archive has nothing to draw",
+        diagnostics_.error("no-root", library_->archivePlace(), "the archive has nothing to draw",
                            "a node '" + settings_.root.name + "', or <player root=\"...\"/>");
         return false;
     }
+    if (!settings_.rootGiven) settings_.root.place = found->element.place();
     resources_->resolve(settings_.root, typeid(SceneNode), nullptr);
     // Without a scheduler the methods are still bound, so that one run tells all that is wrong.
     const bool scheduled = setScheduler();

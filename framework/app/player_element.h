@@ -19,8 +19,8 @@ class SceneNode;
 /// conventions of the original where it has none (terrain reference 6).
 struct PlayerSettings {
     Ref<SceneNode> root{"scene"};
-    std::string camera = "camera";
-    std::string method = "draw";
+    Attr<std::string> camera = "camera"; ///< flag of the camera node
+    Attr<std::string> method = "draw";   ///< of that node; draws a frame
     Ref<Scheduler> scheduler{"defaultScheduler"};
     std::optional<View> view;                       ///< radians
     bool rootGiven = false, schedulerGiven = false; ///< the archive names them itself

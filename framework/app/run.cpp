@@ -92,7 +92,9 @@ bool runScript(Player& player, const RunOptions& options, std::ostream& err) {
     for (const ScriptLine& line : lines)
         tell(line, line.problem);
     if (!good) return false; // a script that can't be understood is not run in part
-    ScriptRunner runner(player, {.script = options.script.parent_path()});
+    Progress progress(err, options.logLevel <= LogLevel::info);
+    ScriptRunner runner(player, {.script = options.script.parent_path()},
+                        [&](int frame, int frames) { progress.tell(frame, frames); });
     for (const ScriptLine& line : lines)
         tell(line, runner.run(line));
     return good;
@@ -120,7 +122,8 @@ bool write(const fs::path& path, const std::string& text, std::ostream& err) {
 
 bool writeResults(Player& player, const RunOptions& options, std::ostream& err) {
     bool good = true;
-    if (!options.screenshot.empty() && !writePng(options.screenshot, player.capture())) {
+    if (!options.screenshot.empty() && player.frames() > 0 &&
+        !writePng(options.screenshot, player.capture())) {
         err << "can't write " << shownPath(options.screenshot) << "\n";
         good = false;
     }
@@ -149,9 +152,9 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
         good = runScript(player, options, streams.err);
     else if (good)
         good = drawFrames(player, options, streams.err);
-    if (player.frames() > 0) {
-        good &= writeResults(player, options, streams.err);
-    } else if (good && !options.screenshot.empty()) {
+    // What a run that failed early can tell of itself is still worth having.
+    if (player.resources()) good &= writeResults(player, options, streams.err);
+    if (good && player.frames() == 0 && !options.screenshot.empty()) {
         streams.err << "no frame has been drawn that a screenshot could show\n";
         good = false;
     }

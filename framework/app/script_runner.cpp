@@ -65,10 +65,9 @@ std::string ScriptRunner::run(const ScriptLine& line) {
     return std::visit([this](const auto& command) { return run(command); }, *line.command);
 }
 
-std::string ScriptRunner::draw(int frames) {
-    for (int i = 0; i < frames; ++i) {
-        if (!player_.frame()) return kNothing;
-    }
+std::string ScriptRunner::drawFrame(int frame, int frames) {
+    if (!player_.frame()) return kNothing;
+    if (observer_) observer_(frame, frames);
     return {};
 }
 
@@ -83,17 +82,26 @@ std::string ScriptRunner::run(const CameraCommand& command) {
     for (int i = 0; i < command.frames; ++i) {
         const double t = command.frames == 1 ? 1 : double(i) / (command.frames - 1);
         controller.view = controller.between(from, to, t);
-        if (!player_.frame()) return kNothing;
+        if (const std::string problem = drawFrame(i + 1, command.frames); !problem.empty())
+            return problem;
     }
     return {};
 }
 
 std::string ScriptRunner::run(const FramesCommand& command) {
-    return draw(command.count);
+    for (int i = 0; i < command.count; ++i) {
+        if (const std::string problem = drawFrame(i + 1, command.count); !problem.empty())
+            return problem;
+    }
+    return {};
 }
 
 std::string ScriptRunner::run(const WaitCommand& command) {
-    if (player_.drawUntilComplete(command.maxFrames)) return {};
+    for (int i = 0; i < command.maxFrames && !player_.complete(); ++i) {
+        if (const std::string problem = drawFrame(i + 1, command.maxFrames); !problem.empty())
+            return problem;
+    }
+    if (player_.complete()) return {};
     return "the picture is not complete after " + std::to_string(command.maxFrames) + " frames";
 }
 

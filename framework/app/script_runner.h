@@ -5,6 +5,7 @@
 #include "core/source.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,16 @@ struct ScriptFolders {
     bool updatePictures = false;   ///< `expect image` writes the picture instead of comparing it
 };
 
+/// Told after each frame of a command that draws several: how many are drawn, of how many at most.
+using FrameObserver = std::function<void(int frame, int frames)>;
+
 /// Runs the commands of a script on a loaded player.
 class ScriptRunner {
 public:
-    ScriptRunner(Player& player, ScriptFolders folders)
+    ScriptRunner(Player& player, ScriptFolders folders, FrameObserver observer = {})
         : player_(player)
-        , folders_(std::move(folders)) {}
+        , folders_(std::move(folders))
+        , observer_(std::move(observer)) {}
 
     /// Empty when the line did what it says; else why not.
     std::string run(const ScriptLine& line);
@@ -48,10 +53,11 @@ private:
     std::string run(const ExpectDiagnosticCommand& command);
     std::string run(const ExpectMetricCommand& command);
     std::string run(const ExpectNoErrorsCommand& command);
-    std::string draw(int frames);
+    std::string drawFrame(int frame, int frames);
 
     Player& player_;
     const ScriptFolders folders_;
+    const FrameObserver observer_;
     std::vector<ExpectDiagnosticCommand> expected_;
 };
 

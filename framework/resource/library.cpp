@@ -87,6 +87,7 @@ bool Library::addArchive(const fs::path& file) {
 bool Library::addArchive(const fs::path& file, std::shared_ptr<const SourceFile> text) {
     const auto document = XmlDocument::parse(std::move(text), diagnostics_);
     if (!document) return false;
+    if (archives_.empty()) archivePlace_ = document->root().place();
     archives_.push_back(file);
     for (const XmlElement& element : document->root().children())
         addEntry(element);

@@ -48,6 +48,9 @@ public:
     /// Names of archive entries, for suggestions.
     const std::vector<std::string>& names() const { return names_; }
 
+    /// The root element of the first archive; none before there is one.
+    const Place& archivePlace() const { return archivePlace_; }
+
     const SearchPath& searchPath() const { return searchPath_; }
     Diagnostics& diagnostics() const { return diagnostics_; }
 
@@ -78,6 +81,7 @@ private:
     std::vector<std::string> names_;
     std::unordered_map<std::string, Entry> entryByName_; ///< the first of each name
     std::vector<std::filesystem::path> archives_;
+    Place archivePlace_;
     std::map<std::filesystem::path, std::shared_ptr<const XmlDocument>>
         documents_; ///< null: damaged
     std::map<std::filesystem::path, std::shared_ptr<const SourceFile>> sources_;

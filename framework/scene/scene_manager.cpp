@@ -43,14 +43,14 @@ void SceneManager::setRoot(Ref<SceneNode> root) {
     changed();
 }
 
-void SceneManager::setCamera(std::string flag, std::string method) {
+void SceneManager::setCamera(Attr<std::string> flag, Attr<std::string> method) {
     cameraFlag_ = std::move(flag);
     cameraMethod_ = std::move(method);
     changed();
 }
 
 SceneNode* SceneManager::camera() {
-    if (!indexed_) nodes(cameraFlag_);
+    if (!indexed_) nodes(*cameraFlag_);
     return camera_;
 }
 
@@ -72,7 +72,7 @@ const std::vector<SceneNode*>& SceneManager::nodes(const std::string& flag) {
         nodesByFlag_.clear();
         if (root_) index(*root_);
         indexed_ = true;
-        const auto cameras = nodesByFlag_.find(cameraFlag_);
+        const auto cameras = nodesByFlag_.find(*cameraFlag_);
         camera_ = cameras == nodesByFlag_.end() ? nullptr : cameras->second.front();
     }
     return nodesByFlag_[flag];
@@ -124,20 +124,22 @@ bool SceneManager::plan() {
     SceneNode* const eye = camera();
     Diagnostics& diagnostics = resources_.diagnostics();
     if (!eye) {
-        diagnostics.error("no-camera", {}, "no node has the flag '" + cameraFlag_ + "'",
+        const Place place = cameraFlag_.given || !root_ ? cameraFlag_.place : root_->place;
+        diagnostics.error("no-camera", place, "no node has the flag '" + *cameraFlag_ + "'",
                           "a node with this flag, from which the scene is drawn");
         return false;
     }
-    const auto method = eye->methods.find(cameraMethod_);
+    const auto method = eye->methods.find(*cameraMethod_);
     if (method == eye->methods.end()) {
-        diagnostics.error("no-camera-method", {},
-                          "the camera node has no method '" + cameraMethod_ + "'",
-                          "<method id=\"" + cameraMethod_ + "\" value=\"...\"/> in it");
+        diagnostics.error("no-camera-method",
+                          cameraMethod_.given ? cameraMethod_.place : eye->place,
+                          "the camera node has no method '" + *cameraMethod_ + "'",
+                          "<method id=\"" + *cameraMethod_ + "\" value=\"...\"/> in it");
         return false;
     }
     if (!method->second.task) return false; // told at the node
     BindContext context(*this, *eye);
-    const BindContext::Call call(context, *eye, cameraMethod_);
+    const BindContext::Call call(context, *eye, *cameraMethod_);
     plan_ = method->second.task->bind(context);
     return plan_ != nullptr;
 }

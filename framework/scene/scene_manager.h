@@ -54,7 +54,7 @@ public:
     void setScheduler(Scheduler& scheduler) { scheduler_ = &scheduler; }
     Scheduler* scheduler() const { return scheduler_; }
     /// The flag of the camera node and the id of its method that draws a frame.
-    void setCamera(std::string flag, std::string method);
+    void setCamera(Attr<std::string> flag, Attr<std::string> method);
     /// Null when no node has the flag.
     SceneNode* camera();
 
@@ -93,8 +93,8 @@ private:
     const GlContext& context_;
     Scheduler* scheduler_ = nullptr;
     Ref<SceneNode> root_;
-    std::string cameraFlag_ = "camera";
-    std::string cameraMethod_ = "draw";
+    Attr<std::string> cameraFlag_ = "camera";
+    Attr<std::string> cameraMethod_ = "draw";
     DrawState drawState_;
     std::unique_ptr<Framebuffer> offscreen_;
 

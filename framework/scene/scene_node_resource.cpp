@@ -136,6 +136,7 @@ std::shared_ptr<SceneNode> buildNode(const NodeDescription& d, BuildContext&) {
     // A reference to another node: everything else that it says is ignored.
     if (d.value.given()) return std::static_pointer_cast<SceneNode>(d.value.entry()->instance);
     auto node = std::make_shared<SceneNode>();
+    node->place = d.place;
     node->name = *d.name;
     node->flags = *d.flags;
     if (!node->name.empty()) node->flags.push_back(node->name);

@@ -102,6 +102,14 @@ TEST_CASE_FIXTURE(Fixture, "a fixture may name another archive") {
     contains(run("frames 1\narchive other.xml\n"), "'archive' must be the first line");
 }
 
+TEST_CASE_FIXTURE(Fixture, "a script without a command proves nothing") {
+    for (const char* script : {"", "# nothing yet\n", "needs archive.xml\n"}) {
+        CAPTURE(script);
+        CHECK(run(script).status == Status::failed);
+        contains(run(script), "script: no command that proves anything\n");
+    }
+}
+
 TEST_CASE_FIXTURE(Fixture, "a script that can't be understood is not run") {
     const FixtureResult result = run("fraems 1\nframes 1\nexpect tiles\n");
     CHECK(result.status == Status::failed);

@@ -139,20 +139,26 @@ TEST_CASE("what can't be played is told") {
         const char* name;
         const char* archive;
         const char* codes;
+        const char* place; ///< of the last one
     };
     const Row rows[] = {
-        {"nothing to draw", "<archive/>", "no-root "},
+        {"nothing to draw", "<archive/>", "no-root ", "1:1"},
         {"another root", "<archive><player root=\"scen\"/><node name=\"scene\"/></archive>",
-         "unknown-resource "},
-        {"no camera", "<archive><node name=\"scene\"/></archive>", "no-camera "},
+         "unknown-resource ", "1:24"},
+        {"no camera", "<archive><node name=\"scene\"/></archive>", "no-camera ", "1:10"},
+        {"another camera flag", "<archive><player camera=\"eye\"/><node name=\"scene\"/></archive>",
+         "no-camera ", "1:26"},
         {"no camera method",
          "<archive><node name=\"scene\"><node flags=\"camera\"/></node></archive>",
-         "no-camera-method "},
+         "no-camera-method ", "1:29"},
+        {"another camera method",
+         "<archive><player method=\"show\"/><node name=\"scene\" flags=\"camera\"/></archive>",
+         "no-camera-method ", "1:26"},
         {"unknown view", "<archive><player view=\"top\"/><node name=\"scene\"/></archive>",
-         "unknown-view no-camera "},
+         "unknown-view no-camera ", "1:30"},
         {"a root that is no node", "<archive><sequence name=\"scene\"/></archive>",
-         "mistyped-reference "},
-        {"no XML", "<archive><node></archive>", "xml-syntax "},
+         "mistyped-reference ", "1:10"},
+        {"no XML", "<archive><node></archive>", "xml-syntax ", "1:10"},
     };
     for (const Row& row : rows) {
         CAPTURE(row.name);
@@ -161,6 +167,8 @@ TEST_CASE("what can't be played is told") {
         Player player(standardRegistry(), small(folder.path()));
         CHECK(!player.load());
         CHECK(codes(player) == row.codes);
+        const LineColumn at = player.diagnostics().all().back().place.position();
+        CHECK(std::to_string(at.line) + ":" + std::to_string(at.column) == row.place);
         CHECK(!player.drawUntilComplete());
     }
 }
