@@ -49,7 +49,7 @@ float rootElevation(vec2 p) {
     return 120.0 + 3300.0 * height * mix(0.3, 1.0, massif);
 }
 
-float noiseFactor(mat4 z, float metres) {
+float noiseFactor(mat3 z, float metres) {
     vec2 slope = vec2(z[1][2] - z[1][0], z[2][1] - z[0][1]) / (2.0 * metres);
     float crest = (4.0 * z[1][1] - z[0][1] - z[2][1] - z[1][0] - z[1][2]) / (4.0 * metres);
     float steep = smoothstep(0.06, 0.75, length(slope));

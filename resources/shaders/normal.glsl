@@ -58,10 +58,24 @@ vec3 onSphere(vec2 uv, float h, float h0) {
     return (1.0 + h0 / R) * (patchCorners * a).xyz + height * (patchVerticals * a).xyz;
 }
 
+// Texels beyond the edge of a face are those of the next face of the cube, where rows and columns go
+// on around the edge: the place (R+s, y) stands for (R, y, R-s). This is where to find that on the
+// plane of the face, so that both faces see the same ground, and light shows no seam.
+vec2 aroundCube(vec2 uv) {
+    float R = deform.w, size = deform.z;
+    vec2 low = vec2(lessThan(deform.xy + R, vec2(0.25 * size))) * max(-uv, 0.0);
+    vec2 high = vec2(greaterThan(deform.xy + 1.25 * size, vec2(R))) * max(uv - 1.0, 0.0);
+    vec2 s = (low + high) * size / R;
+    vec2 along = (deform.xy + uv * size) / R;
+    if (s.x > 0.0) uv += s.x / (1.0 - s.x) * vec2(along.x > 0.0 ? s.x : -s.x, along.y) * R / size;
+    if (s.y > 0.0) uv += s.y / (1.0 - s.y) * vec2(along.x, along.y > 0.0 ? s.y : -s.y) * R / size;
+    return uv;
+}
+
 vec3 position(ivec2 texel, float h0) {
     float h = elevation(texel);
     vec2 uv = vec2(texel) / (tileSDF.x - 1.0);
-    return deform.w == 0.0 ? vec3(uv * deform.z, h - h0) : onSphere(uv, h, h0);
+    return deform.w == 0.0 ? vec3(uv * deform.z, h - h0) : onSphere(aroundCube(uv), h, h0);
 }
 
 vec2 decoded(vec2 n) {

@@ -69,17 +69,32 @@ float upsampled(mat4 z, ivec2 texel) {
     return between(column, texel.y);
 }
 
+// The parent's elevations around a texel, a parent texel apart: from all sides the same.
+vec3 around(vec4 z, int texel) {
+    return texel % 2 == 0 ? z.xyz : 0.5 * (z.xyz + z.yzw);
+}
+
+mat3 surroundings(mat4 z, ivec2 texel) {
+    mat4x3 rows;
+    for (int j = 0; j < 4; ++j)
+        rows[j] = around(z[j], texel.x);
+    return texel.y % 2 == 0 ? mat3(rows[0], rows[1], rows[2])
+                            : mat3(0.5 * (rows[0] + rows[1]), 0.5 * (rows[1] + rows[2]),
+                                   0.5 * (rows[2] + rows[3]));
+}
+
 #ifdef CUSTOM_RELIEF
 // What is added to the root tile at a place, metres from the centre of the terrain.
 float rootElevation(vec2 place);
-// What the amplitude of noise is multiplied with, given 4x4 elevations of the parent, rows from the
-// south, and the metres between them.
-float noiseFactor(mat4 z, float d);
+// What the amplitude of noise is multiplied with, given the parent's elevations around a place, rows
+// from the south, and the metres between them. On a planet it must be the same for turned rows and
+// columns, or there are seams where its faces meet.
+float noiseFactor(mat3 z, float d);
 #elif defined SLOPE_NOISE
-float noiseFactor(mat4 z, float d) {
+float noiseFactor(mat3 z, float d) {
     float slopeX = (z[1][2] - z[1][0]) / (2.0 * d);
     float slopeY = (z[2][1] - z[0][1]) / (2.0 * d);
-    float curvature = (z[1][2] + z[1][0] + z[2][1] + z[0][1] - 4.0 * z[1][1]) / d;
+    float curvature = (z[1][2] + z[1][0] + (z[2][1] + z[0][1]) - 4.0 * z[1][1]) / d;
     float slope = length(vec2(slopeX, slopeY));
     return max(clamp(4.0 * curvature, 0.0, 1.5), clamp(2.0 * slope - 0.5, 0.1, 4.0));
 }
@@ -125,7 +140,7 @@ void main() {
         mat4 z = parentBlock(texel);
         zf = upsampled(z, texel);
 #if defined CUSTOM_RELIEF || defined SLOPE_NOISE
-        if (noiseUVLH.w > 0.0) amplitude *= noiseFactor(z, 2.0 * tileWSDF.y);
+        if (noiseUVLH.w > 0.0) amplitude *= noiseFactor(surroundings(z, texel), 2.0 * tileWSDF.y);
 #endif
     }
 #ifdef CUSTOM_RELIEF

@@ -2,6 +2,8 @@
 #include "plugins/terrain/noise.h"
 #include "plugins/terrain/noise_image.h"
 
+#include "plugin_terrain/planet_cube.h"
+
 #include <doctest/doctest.h>
 #include <glm/glm.hpp>
 
@@ -12,6 +14,7 @@
 #include <vector>
 
 using namespace terrane;
+using terrane::test::toPlanet;
 
 namespace {
 
@@ -68,27 +71,6 @@ bool agree(const NoiseImage<T>& image, int shared, int codeA, int edgeA, int cod
     return true;
 }
 
-// Local axes of the six faces of a planet (terrain reference 2.2): east, north, outwards.
-struct FaceAxes {
-    glm::ivec3 x, y, z;
-};
-
-// Rotations by 90 degrees about an axis, counter-clockwise.
-glm::ivec3 aboutX(glm::ivec3 v) {
-    return {v.x, -v.z, v.y};
-}
-glm::ivec3 aboutY(glm::ivec3 v) {
-    return {v.z, v.y, -v.x};
-}
-
-glm::ivec3 toPlanet(int face, glm::ivec3 v) {
-    if (face == 6) return aboutX(aboutX(v));
-    if (face == 1) return v;
-    for (int i = 2; i < face; ++i)
-        v = aboutY(v);
-    return aboutX(v);
-}
-
 struct TileEdge {
     int face, tx, ty, edge;
     bool reversed; // runs against the order of its end points
@@ -107,9 +89,9 @@ std::map<Key, std::vector<TileEdge>> tileEdges(int level) {
                     const int x = 2 * (tx + (edge == right ? 1 : 0)) - o;
                     const int y = 2 * (ty + (edge == top ? 1 : 0)) - o;
                     const bool horizontal = edge == bottom || edge == top;
-                    glm::ivec3 p = toPlanet(face, {x, y, o});
-                    glm::ivec3 q =
-                        toPlanet(face, {x + (horizontal ? 2 : 0), y + (horizontal ? 0 : 2), o});
+                    glm::ivec3 p = toPlanet(face, glm::ivec3(x, y, o));
+                    glm::ivec3 q = toPlanet(
+                        face, glm::ivec3(x + (horizontal ? 2 : 0), y + (horizontal ? 0 : 2), o));
                     const bool reversed =
                         std::make_tuple(q.x, q.y, q.z) < std::make_tuple(p.x, p.y, p.z);
                     if (reversed) std::swap(p, q);

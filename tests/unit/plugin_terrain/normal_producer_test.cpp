@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin_terrain/elevation_oracle.h"
 #include "plugin_terrain/terrain_fixture.h"
-#include "terrain/spherical_deformation.h"
 
 #include <algorithm>
 #include <array>
@@ -83,13 +82,19 @@ public:
 private:
     glm::dvec3 at(const std::vector<glm::vec4>& texels, int i, int k) const {
         const double step = quad_.size / (kWidth - 1);
-        return deformation_.localToDeformed(
-            {quad_.ox + i * step, quad_.oy + k * step, elevation(texels, i, k)});
+        // Beyond the edge of the face the grid goes on around the edge of the cube.
+        glm::dvec3 p(quad_.ox + i * step, quad_.oy + k * step, radius_);
+        for (double* const x : {&p.x, &p.y}) {
+            const double beyond = std::abs(*x) - radius_;
+            if (beyond <= 1e-6 * step) continue;
+            *x = std::copysign(radius_, *x);
+            p.z -= beyond;
+        }
+        return glm::normalize(p) * (radius_ + elevation(texels, i, k));
     }
 
     double radius_;
     TileCoordinates quad_;
-    SphericalDeformation deformation_{radius_};
     std::array<glm::dvec3, 3> frame_;
 };
 

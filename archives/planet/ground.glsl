@@ -1,0 +1,171 @@
+// Land and sea: heights and normals of the tiles, coloured by height, slope and climate. The sea is
+// no surface of its own: where the ground is below 0, heights to display are 0, and the shader
+// paints water. So there are no two surfaces that could fight for a pixel.
+
+#include "deformation.glsl"
+#include "textureTile.glsl"
+
+uniform samplerTile elevationSampler; // heights: of this level, of the level before, to display
+uniform samplerTile normalSampler;    // normals (x, y): of this level, of the level before
+
+uniform mat4 screenToCamera;
+uniform mat4 cameraToWorld;
+
+#ifdef _VERTEX_
+// From air.glsl.
+void throughAir(vec3 eye, vec3 way, int steps, out vec3 light, out vec3 left);
+
+layout(location = 0) in vec3 vertex; // of the skirted grid: xy in [0,1] over the quad, z = 1
+out vec2 uv;
+out vec3 way;    // from the camera, metres along the axes of the world
+out float blend; // 0: this level, 1: the level before
+out vec3 airLight, airLeft;
+
+void main() {
+    uv = clamp(vertex.xy, 0.0, 1.0);
+    vec3 zfc = textureTile(elevationSampler, uv).xyz;
+    blend = deformationBlend(uv);
+    float part = tilePart(elevationSampler);
+    float z = part < 1.0 ? zfc.z : mix(zfc.z, zfc.y, blend);
+    // The skirt hides gaps between quads: those that rounding leaves, and those between the levels
+    // of two faces that meet at an edge which the camera is above neither side of.
+    float skirt = (vertex.z - 1.0) * deformation.offset.z / part;
+    gl_Position = deformSphere(vertex.xy, z + skirt);
+
+    vec3 p = vec3(gl_Position.x * screenToCamera[0][0], gl_Position.y * screenToCamera[1][1],
+                  -gl_Position.w);
+    way = mat3(cameraToWorld) * p;
+    throughAir(cameraToWorld[3].xyz, way, 6, airLight, airLeft);
+}
+#endif
+
+#ifdef _FRAGMENT_
+// From air.glsl.
+vec3 sunDirection();
+vec3 sunlightAt(float height, float cosine);
+vec3 skylightAt(float cosine);
+vec3 developed(vec3 light);
+
+in vec2 uv;
+in vec3 way;
+in float blend;
+in vec3 airLight, airLeft;
+layout(location = 0) out vec4 colour;
+
+float hash(vec3 p) {
+    p = fract(p * vec3(0.1031, 0.1030, 0.0973));
+    p += dot(p, p.yzx + 33.33);
+    return fract((p.x + p.y) * p.z);
+}
+
+// Smooth noise in [0,1].
+float noise(vec3 p) {
+    vec3 i = floor(p), f = p - i;
+    f = f * f * (3.0 - 2.0 * f);
+    vec2 x = vec2(0.0, 1.0);
+    vec4 z = mix(vec4(hash(i), hash(i + x.yxx), hash(i + x.xyx), hash(i + x.yyx)),
+                 vec4(hash(i + x.xxy), hash(i + x.yxy), hash(i + x.xyy), hash(i + x.yyy)), f.z);
+    vec2 y = mix(z.xy, z.zw, f.y);
+    return mix(y.x, y.y, f.x);
+}
+
+// Noise in [0,1] on a grid of 2^level cells a face. Counted in integers, since metres on a planet
+// leave no digits for stones.
+float grain(float level) {
+    float depth = level - deformation.offset.w;
+    vec2 tile = round((deformation.offset.xy + deformation.radius) / deformation.offset.z);
+    vec2 first = mod(tile * exp2(depth), 4096.0);
+    vec2 p = uv * exp2(depth);
+    vec2 i = floor(p), f = p - i;
+    f = f * f * (3.0 - 2.0 * f);
+    i += first;
+    vec2 x = vec2(0.0, 1.0);
+    float low = mix(hash(vec3(i, level)), hash(vec3(i + x.yx, level)), f.x);
+    float high = mix(hash(vec3(i + x.xy, level)), hash(vec3(i + x.yy, level)), f.x);
+    return mix(low, high, f.y);
+}
+
+// What of a pattern pixels can show: 1 of patches that are larger, 0 of smaller ones.
+float shown(float size) {
+    return clamp(1.5 - 0.004 * length(way) / size, 0.0, 1.0);
+}
+
+struct Place {
+    vec3 up;        // on the unit sphere
+    float height;   // metres
+    float slope;    // cosine of the steepness
+    float patchy;   // random, in [-0.5,0.5]
+    float cold;     // 0 at the equator's beaches, 1 where snow stays
+    float dry;
+};
+
+Place placeAt(vec3 up, float height, float slope) {
+    Place p = Place(up, height, slope, 0.0, 0.0, 0.0);
+    float wide = noise(up * 14.0) - 0.5;
+    p.patchy = 0.45 * (noise(up * 90.0) - 0.5) + 0.35 * (noise(up * 700.0) - 0.5) * shown(9000.0) +
+               0.3 * (noise(up * 9000.0) - 0.5) * shown(700.0);
+    float latitude = abs(up.z);
+    p.cold = 1.12 * pow(latitude, 2.2) + max(height, 0.0) / 5200.0 + 0.10 * wide + 0.10 * p.patchy;
+    // Deserts lie along the tropics.
+    float tropic = (latitude - 0.38) / 0.17;
+    p.dry = exp(-tropic * tropic) + 0.9 * wide + 0.3 * p.patchy;
+    return p;
+}
+
+vec3 land(Place p) {
+    vec3 desert = mix(vec3(0.36, 0.25, 0.13), vec3(0.27, 0.15, 0.075), 0.5 + p.patchy);
+    vec3 steppe = mix(vec3(0.165, 0.145, 0.062), vec3(0.115, 0.115, 0.045), 0.5 + p.patchy);
+    vec3 forest = mix(vec3(0.018, 0.043, 0.012), vec3(0.042, 0.068, 0.020), 0.5 + p.patchy);
+    vec3 tundra = vec3(0.115, 0.108, 0.078);
+    vec3 rock = mix(vec3(0.125, 0.112, 0.102), vec3(0.200, 0.183, 0.168), 0.5 + p.patchy);
+    vec3 c = mix(forest, steppe, smoothstep(0.15, 0.45, p.dry));
+    c = mix(c, desert, smoothstep(0.45, 0.75, p.dry));
+    c = mix(c, tundra, smoothstep(0.52, 0.72, p.cold));
+    c = mix(c, vec3(0.30, 0.26, 0.18), 1.0 - smoothstep(2.0, 12.0, p.height + 8.0 * p.patchy)); // beach
+    c = mix(c, rock, 1.0 - smoothstep(0.74, 0.90, p.slope + 0.15 * p.patchy));
+    float fine = 0.5 * (grain(20.0) - 0.5) * shown(12.0) + 0.5 * (grain(23.0) - 0.5) * shown(1.5);
+    c *= 1.0 + fine;
+    float snow = smoothstep(0.76, 0.90, p.cold) * smoothstep(0.50, 0.72, p.slope + 0.1 * p.patchy);
+    return mix(c, vec3(0.80, 0.84, 0.90), snow);
+}
+
+// What water reflects of the light above it: the sun's path, wide as the waves are steep, and sky.
+vec3 sea(Place p, vec3 toEye, vec3 sunlight, vec3 skylight, float depth) {
+    vec3 deep = vec3(0.006, 0.022, 0.050), shallow = vec3(0.030, 0.105, 0.110);
+    vec3 body = mix(deep, shallow, exp(-depth / 45.0));
+    vec2 waves = vec2(grain(22.0), grain(22.5)) * shown(3.0) +
+                 0.5 * vec2(grain(24.0), grain(24.5)) * shown(0.8);
+    float facing = max(dot(p.up, toEye), 0.0);
+    float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0) * 0.7;
+    vec3 halfway = normalize(toEye + sunDirection());
+    float tilt = dot(p.up, halfway);
+    float glitter = 0.9 * exp((1.0 - 1.0 / max(tilt * tilt, 1e-3)) / 0.025);
+    vec3 c = body * (sunlight * max(dot(p.up, sunDirection()), 0.0) / 3.14 + skylight);
+    c += fresnel * (skylight * 0.9) + 0.06 * glitter * sunlight;
+    return c * (0.92 + 0.10 * (waves.x + waves.y));
+}
+
+void main() {
+    vec4 n = textureTile(normalSampler, uv) * 2.0 - 1.0;
+    vec2 slope = tilePart(normalSampler) < 1.0 ? n.xy : mix(n.xy, n.zw, blend);
+    vec3 normal = vec3(slope, sqrt(max(0.0, 1.0 - dot(slope, slope))));
+    normal = deformation.tangentFrameToWorld * normal;
+
+    vec3 up = normalize(cameraToWorld[3].xyz + way);
+    float height = textureTile(elevationSampler, uv).x;
+    float sunHeight = dot(up, sunDirection());
+    vec3 sunlight = sunlightAt(height, sunHeight);
+    vec3 skylight = skylightAt(sunHeight);
+    Place place = placeAt(up, height, dot(up, normal));
+
+    float lit = max(dot(normal, sunDirection()), 0.0);
+    vec3 light = land(place) * (sunlight * lit / 3.14 + skylight * (0.6 + 0.4 * place.slope));
+    if (height < 0.0) {
+        light = sea(place, -normalize(way), sunlight, skylight, -height);
+        float ice = smoothstep(0.86, 0.97, place.cold);
+        vec3 white = vec3(0.70, 0.76, 0.82) * (sunlight * max(sunHeight, 0.0) / 3.14 + skylight);
+        light = mix(light, white, ice);
+    }
+    colour = vec4(developed(light * airLeft + airLight), 1.0);
+}
+#endif
