@@ -11,8 +11,17 @@ find_package(TIFF REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
+pkg_check_modules(osmesa IMPORTED_TARGET osmesa) # newer versions of Mesa have none: then it is EGL
+pkg_check_modules(glfw REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+
+# What contexts and windows come from.
+add_library(gl_systems INTERFACE)
+target_link_libraries(gl_systems INTERFACE PkgConfig::egl PkgConfig::glfw)
+if(osmesa_FOUND)
+    target_link_libraries(gl_systems INTERFACE PkgConfig::osmesa)
+endif()
 
 find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
 add_library(stb INTERFACE)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "render/context.h"
 #include "ui/view_controller.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -27,6 +30,9 @@ struct PlayerOptions {
     float maxAnisotropy = 0;    ///< 0: 1 on a software renderer, else the driver's limit
     bool recordFrames = false;  ///< keep the times of each frame for the metrics
     bool trace = false;         ///< keep the times of each task
+    HeadlessKind headless = HeadlessKind::any; ///< what draws where there is no window
+    /// Makes the context instead, such as a window's; called when the archive has been read.
+    std::function<std::unique_ptr<GlContext>(Diagnostics&, const GlContext::Options&)> makeContext;
     /// Counts allocations since the program started; null where nobody counts them.
     std::uint64_t (*allocations)() = nullptr;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/player.h"
 
+#include "app/ground_pick.h"
 #include "app/start_view.h"
 #include "render/context.h"
 #include "render/program_bindings.h"
@@ -75,8 +76,11 @@ bool Player::openArchive() {
 }
 
 bool Player::openContext() {
-    context_ = createOsMesaContext(
-        diagnostics_, {.debug = options_.debug, .maxAnisotropy = options_.maxAnisotropy});
+    const GlContext::Options wanted{.debug = options_.debug,
+                                    .maxAnisotropy = options_.maxAnisotropy};
+    context_ = options_.makeContext
+                   ? options_.makeContext(diagnostics_, wanted)
+                   : createHeadlessContext(diagnostics_, wanted, options_.headless);
     if (!context_) return false;
     context_->makeCurrent();
     bindings_ = std::make_unique<ProgramBindings>(*context_);
@@ -200,7 +204,7 @@ void Player::advanceTime() {
 void Player::placeCamera() {
     if (SceneNode* const camera = scene_->camera())
         camera->localToParent = controller_->cameraToWorld();
-    scene_->cameraToScreen = controller_->cameraToScreen(options_.width, options_.height);
+    scene_->cameraToScreen = controller_->cameraToScreen(target_->width(), target_->height());
 }
 
 void Player::clear() {
@@ -230,6 +234,21 @@ Image Player::capture() {
     return target_->captureOpaque();
 }
 
+void Player::resize(int width, int height) {
+    if (width == target_->width() && height == target_->height()) return;
+    context_->makeCurrent();
+    target_->resize(width, height);
+    quietFrames_ = 0;
+}
+
+std::optional<glm::dvec3> Player::groundAt(double x, double y) {
+    if (frames_ == 0) return std::nullopt;
+    context_->makeCurrent();
+    const glm::dmat4 worldFromScreen = scene_->cameraToWorld() * scene_->screenToCamera();
+    const auto point = pointAt(*target_, worldFromScreen, x, y);
+    return point && isNearTerrain(*point, terrains_) ? point : std::nullopt;
+}
+
 bool Player::isSoftware() const {
     return context_ && context_->isSoftware();
 }
@@ -240,8 +259,8 @@ void Player::mark() {
 
 nlohmann::ordered_json Player::metrics() {
     return metrics_.json(*resources_, {.renderer = context_->renderer(),
-                                       .width = options_.width,
-                                       .height = options_.height,
+                                       .width = target_->width(),
+                                       .height = target_->height(),
                                        .glObjects = context_->objectCount()});
 }
 

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,14 @@ public:
 
     /// The last frame; RGB. Waits for OpenGL.
     Image capture();
+    /// Changes the size of the picture, for the next frame; at least 1 x 1.
+    void resize(int width, int height);
+    /// What the frames are drawn into. Only when drawable().
+    const RenderTarget& picture() const { return *target_; }
+
+    /// The point of the world that the last frame shows at a place, in pixels from the top left
+    /// corner; none where it shows nothing near a terrain. Waits for OpenGL.
+    std::optional<glm::dvec3> groundAt(double x, double y);
 
     /// Where the camera is. Free to change between frames.
     TerrainViewController& controller() { return *controller_; }

@@ -2,6 +2,7 @@
 #include "app/run.h"
 
 #include "app/player.h"
+#include "app/player_window.h"
 #include "app/script_runner.h"
 #include "core/files.h"
 #include "core/image.h"
@@ -55,6 +56,12 @@ void tellSoftware(Player& player, const RunOptions& options, std::ostream& err) 
         err << "drawn in software, without anisotropic filtering (--max-anisotropy N overrides)\n";
 }
 
+/// What an archive is called: "mountains" of archives/mountains/, "helloworld" of helloworld.xml.
+std::string nameOf(const fs::path& archive) {
+    const fs::path full = fs::absolute(archive).lexically_normal();
+    return (full.has_filename() ? full : full.parent_path()).stem().string();
+}
+
 bool isInteractive(const RunOptions& options) {
     return options.script == "-";
 }
@@ -74,8 +81,25 @@ bool drawFrames(Player& player, const RunOptions& options, std::ostream& err) {
     return true;
 }
 
+void showFrame(Player& player, PlayerWindow* window) {
+    if (!window || window->closing()) return;
+    window->show(player);
+    window->follow(player);
+}
+
+/// Until the window is closed, or so many frames have been shown.
+bool showFrames(Player& player, PlayerWindow& window, const RunOptions& options) {
+    const int frames = options.frames;
+    for (int i = 0; (frames < 0 || i < frames) && window.prepare(player); ++i) {
+        if (!player.frame()) return false;
+        window.show(player);
+    }
+    return true;
+}
+
 /// Runs all lines, also after one that failed, so that one run tells everything.
-bool runScript(Player& player, const RunOptions& options, std::ostream& err) {
+/// A window shows each frame, and ends the script when it is closed.
+bool runScript(Player& player, PlayerWindow* window, const RunOptions& options, std::ostream& err) {
     const auto text = readFile(options.script);
     if (!text) {
         err << "can't read the script " << shownPath(options.script) << "\n";
@@ -94,15 +118,20 @@ bool runScript(Player& player, const RunOptions& options, std::ostream& err) {
     if (!good) return false; // a script that can't be understood is not run in part
     Progress progress(err, options.logLevel <= LogLevel::info);
     ScriptRunner runner(player, {.script = options.script.parent_path()},
-                        [&](int frame, int frames) { progress.tell(frame, frames); });
-    for (const ScriptLine& line : lines)
+                        [&](int frame, int frames) {
+                            progress.tell(frame, frames);
+                            showFrame(player, window);
+                        });
+    for (const ScriptLine& line : lines) {
+        if (window && window->closing()) break;
         tell(line, runner.run(line));
+    }
     return good;
 }
 
 /// Whoever wrote the lines judges the answers: a failed one is no failure of the run.
-void runInteractively(Player& player, const RunStreams& streams) {
-    ScriptRunner runner(player, {});
+void runInteractively(Player& player, PlayerWindow* window, const RunStreams& streams) {
+    ScriptRunner runner(player, {}, [&](int, int) { showFrame(player, window); });
     std::string text;
     for (int number = 1; std::getline(streams.in, text); ++number) {
         const auto line = parseScriptLine(text, number);
@@ -139,6 +168,8 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     PlayerOptions playerOptions = options.player;
     playerOptions.recordFrames = !options.metrics.empty() || !options.script.empty();
     playerOptions.trace = !options.trace.empty();
+    std::optional<PlayerWindow> window;
+    if (options.window) window.emplace(nameOf(playerOptions.archive)).install(playerOptions);
     Player player(registry, playerOptions);
     player.diagnostics().onReport([&](const Diagnostic& diagnostic) {
         if (levelOf(diagnostic.severity) >= options.logLevel)
@@ -147,9 +178,11 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     bool good = player.load();
     tellSoftware(player, options, streams.err);
     if (good && isInteractive(options))
-        runInteractively(player, streams);
+        runInteractively(player, window ? &*window : nullptr, streams);
     else if (good && !options.script.empty())
-        good = runScript(player, options, streams.err);
+        good = runScript(player, window ? &*window : nullptr, options, streams.err);
+    else if (good && window)
+        good = showFrames(player, *window, options);
     else if (good)
         good = drawFrames(player, options, streams.err);
     // What a run that failed early can tell of itself is still worth having.

@@ -13,10 +13,12 @@ class Registry;
 /// The least serious message that is told.
 enum class LogLevel { debug, info, warning, error };
 
-/// A headless run from start to end: what `terrane play --headless` does.
+/// A run from start to end: what `terrane play` does.
 struct RunOptions {
     PlayerOptions player;
-    int frames = -1; ///< negative: until the picture is complete; ignored with a script
+    bool window = false; ///< show the frames in one, until a person closes it
+    /// Negative: until the picture is complete, or the window closed; ignored with a script.
+    int frames = -1;
     std::filesystem::path script; ///< "-" reads lines as they arrive and answers each
     LogLevel logLevel = LogLevel::info;
     std::filesystem::path screenshot, metrics, trace; ///< empty: not written

@@ -31,6 +31,10 @@ bool isSoftwareRenderer(std::string_view renderer) {
     return false;
 }
 
+/// The thread's current context. Asking the systems does not do: a context that OSMesa makes
+/// current also replaces Mesa's EGL context, of which EGL knows nothing.
+thread_local GlContext* current = nullptr;
+
 } // namespace
 
 GlContext::GlContext(Diagnostics& diagnostics)
@@ -39,22 +43,42 @@ GlContext::GlContext(Diagnostics& diagnostics)
 
 GlContext::~GlContext() = default;
 
+void GlContext::makeCurrent() {
+    if (enter()) return;
+    diagnostics_.error("no-context", {}, std::string(system()) + " can't use its context",
+                       "a context that no other thread uses");
+}
+
+bool GlContext::enter() {
+    if (current == this) return true;
+    if (current) current->release();
+    current = bind() ? this : nullptr;
+    return current == this;
+}
+
+bool GlContext::isCurrent() const {
+    return current == this;
+}
+
+void GlContext::leave() {
+    if (current != this) return;
+    release();
+    current = nullptr;
+}
+
 void GlContext::finish() const {
     gl_->Finish();
 }
 
-bool GlContext::initialise(Loader loader, const Options& options) {
+std::string GlContext::initialise(Loader loader, const Options& options) {
     const int version = gladLoadGLContext(gl_.get(), loader);
-    if (version < GLAD_MAKE_VERSION(4, 5)) {
-        diagnostics_.error("gl-version", {},
-                           "the driver offers OpenGL " +
-                               std::to_string(GLAD_VERSION_MAJOR(version)) + "." +
-                               std::to_string(GLAD_VERSION_MINOR(version)),
-                           "OpenGL 4.5 core");
-        return false;
-    }
+    if (version == 0) return "no OpenGL functions";
     const auto& gl = *gl_;
     renderer_ = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+    if (version < GLAD_MAKE_VERSION(4, 5)) {
+        return "OpenGL " + std::to_string(GLAD_VERSION_MAJOR(version)) + "." +
+               std::to_string(GLAD_VERSION_MINOR(version)) + " (" + renderer_ + ")";
+    }
     software_ = isSoftwareRenderer(renderer_);
 
     gl.GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &maxArrayLayers_);
@@ -73,7 +97,7 @@ bool GlContext::initialise(Loader loader, const Options& options) {
     }
     state_ = std::make_unique<StateTracker>(gl);
     state_->forget();
-    return true;
+    return {};
 }
 
 } // namespace terrane

@@ -13,9 +13,10 @@ namespace terrane {
 
 class StateTracker;
 
-/// An OpenGL 4.5 core context with its own function table, so that several live in one process.
-/// Every GL object keeps a reference to the context it was made in and must not outlive it. All GL
-/// calls happen on the thread that made the context current.
+/// An OpenGL 4.5 core context with its own function table, so that several live in one process, of
+/// the same or of different systems. Every GL object keeps a reference to the context it was made
+/// in and must not outlive it. All GL calls happen on the thread that made the context current; a
+/// context is current on one thread at a time.
 class GlContext {
 public:
     struct Options {
@@ -29,8 +30,10 @@ public:
     GlContext& operator=(const GlContext&) = delete;
 
     /// Makes this the calling thread's current context (cheap when it already is).
-    virtual void makeCurrent() = 0;
-    virtual bool isCurrent() const = 0;
+    void makeCurrent();
+    bool isCurrent() const;
+    /// Where it comes from: "OSMesa", "EGL", "GLFW".
+    virtual const char* system() const = 0;
     /// Waits until everything that was sent has been done.
     void finish() const;
 
@@ -55,9 +58,16 @@ protected:
     using Loader = void (*(*)(const char* name))();
 
     explicit GlContext(Diagnostics& diagnostics);
-    /// Loads the function table and reads the limits, with the context current. False with a
-    /// diagnostic ("gl-version") below GL 4.5.
-    bool initialise(Loader loader, const Options& options);
+    /// Loads the function table and reads the limits, with the context current. Below GL 4.5 it
+    /// says what there is instead ("OpenGL 3.3 (softpipe)"); empty when all is well.
+    std::string initialise(Loader loader, const Options& options);
+    /// makeCurrent() without a diagnostic when it fails.
+    bool enter();
+    /// Tell the system that the context is the thread's current one, or that none is.
+    virtual bool bind() = 0;
+    virtual void release() = 0;
+    /// To be called by destructors, while release() still works.
+    void leave();
 
 private:
     Diagnostics& diagnostics_;
@@ -71,9 +81,18 @@ private:
     mutable std::uint64_t serial_ = 0;
 };
 
-/// A context of Mesa's off-screen software renderer: no display, no GPU. Null with a diagnostic
-/// ("no-context") when it can't be had.
-std::unique_ptr<GlContext> createOsMesaContext(Diagnostics& diagnostics,
-                                               const GlContext::Options& options);
+/// What there must be, for messages.
+inline constexpr const char* kOpenGlNeeded =
+    "OpenGL 4.5 core, which Mesa's llvmpipe and the drivers of graphics processors have";
+
+/// Where a context without a window comes from: Mesa's OSMesa, always in software; EGL without a
+/// display, which reaches graphics processors; or whichever there is, OSMesa first.
+enum class HeadlessKind { any, osmesa, egl };
+
+/// A context without a window, current. If this kind can't be had the other is tried, and a warning
+/// ("context-fallback") says so. Null with a diagnostic ("no-context") when there is neither.
+std::unique_ptr<GlContext> createHeadlessContext(Diagnostics& diagnostics,
+                                                 const GlContext::Options& options,
+                                                 HeadlessKind kind = HeadlessKind::any);
 
 } // namespace terrane

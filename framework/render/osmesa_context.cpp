@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/context.h"
+#include "render/context_attempt.h"
+
+#ifdef TERRANE_OSMESA
 
 #include <GL/osmesa.h>
 
@@ -15,12 +17,29 @@ public:
         : GlContext(diagnostics) {}
 
     ~OsMesaContext() override {
-        if (!context_) return;
-        if (isCurrent()) OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
-        OSMesaDestroyContext(context_);
+        leave();
+        if (context_) OSMesaDestroyContext(context_);
     }
 
-    bool create(const Options& options) {
+    /// Why it can't be made; empty when it is.
+    std::string create(const Options& options) {
+        // An older one only tells what there is.
+        if (!create(4, 5) && !create(3, 2)) return "OSMesa makes no OpenGL core context";
+        if (!enter()) return "OSMesa can't use its context";
+        const std::string fault = initialise(OSMesaGetProcAddress, options);
+        return fault.empty() ? fault : "OSMesa has " + fault;
+    }
+
+    const char* system() const override { return "OSMesa"; }
+
+protected:
+    bool bind() override {
+        return OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_TRUE;
+    }
+    void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+private:
+    bool create(int major, int minor) {
         // Everything is drawn into framebuffer objects, so the default framebuffer needs no planes.
         const int attributes[] = {OSMESA_FORMAT,
                                   OSMESA_RGBA,
@@ -29,28 +48,12 @@ public:
                                   OSMESA_PROFILE,
                                   OSMESA_CORE_PROFILE,
                                   OSMESA_CONTEXT_MAJOR_VERSION,
-                                  4,
+                                  major,
                                   OSMESA_CONTEXT_MINOR_VERSION,
-                                  5,
+                                  minor,
                                   0};
         context_ = OSMesaCreateContextAttribs(attributes, nullptr);
-        if (!context_ || !bind()) {
-            diagnostics().error("no-context", {}, "OSMesa offers no OpenGL 4.5 core context",
-                                "Mesa with llvmpipe");
-            return false;
-        }
-        return initialise(OSMesaGetProcAddress, options);
-    }
-
-    void makeCurrent() override {
-        if (!isCurrent()) bind();
-    }
-
-    bool isCurrent() const override { return context_ && OSMesaGetCurrentContext() == context_; }
-
-private:
-    bool bind() {
-        return OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_TRUE;
+        return context_ != nullptr;
     }
 
     OSMesaContext context_ = nullptr;
@@ -59,11 +62,31 @@ private:
 
 } // namespace
 
-std::unique_ptr<GlContext> createOsMesaContext(Diagnostics& diagnostics,
-                                               const GlContext::Options& options) {
+bool builtWithOsMesa() {
+    return true;
+}
+
+ContextAttempt tryOsMesaContext(Diagnostics& diagnostics, const GlContext::Options& options) {
     auto context = std::make_unique<OsMesaContext>(diagnostics);
-    if (!context->create(options)) return nullptr;
-    return context;
+    std::string fault = context->create(options);
+    if (!fault.empty()) return {nullptr, std::move(fault)};
+    return {std::move(context), {}};
 }
 
 } // namespace terrane
+
+#else
+
+namespace terrane {
+
+bool builtWithOsMesa() {
+    return false;
+}
+
+ContextAttempt tryOsMesaContext(Diagnostics&, const GlContext::Options&) {
+    return {nullptr, "this build is without OSMesa"};
+}
+
+} // namespace terrane
+
+#endif

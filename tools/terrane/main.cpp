@@ -3,6 +3,7 @@
 #include "app/fixture_pool.h"
 #include "app/register_types.h"
 #include "app/run.h"
+#include "app/script.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "plugins/standard_plugins.h"
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
 constexpr const char* kExamples = R"(Examples:
+  terrane play archives/mountains
   terrane play archives/mountains --headless --screenshot mountains.png
   terrane play archives/mountains --headless --frames 300 --script flight.txt --metrics m.json
   terrane check archives/mountains
@@ -36,19 +39,26 @@ constexpr const char* kExamples = R"(Examples:
 'terrane play --help' tells the options of a subcommand.
 Exit status: 0 fine, 1 the archive or the run failed, 2 wrong usage.)";
 
-const char* const kScripts = R"(A script has one command a line:
-  camera X0,Y0,THETA,PHI,D [to X0,Y0,THETA,PHI,D in N frames]
-  frames N      wait tiles [MAXFRAMES]      screenshot FILE      mark
-  expect tiles PRODUCER OP N                expect image FILE [PIXELS%]
-  expect diagnostic CODE FILE:LINE:COL      expect metric /POINTER OP N
-  expect no-errors
-Angles are in degrees, lengths in metres.)";
+constexpr const char* kWindow = R"(In the window:
+  left button and drag             the ground follows the pointer
+  control, any button and drag     turn around the point looked at
+  middle or right button and drag  move the light, where the archive has one
+  wheel, page up and page down     farther and nearer
+  up and down, left and right      forwards and back, turn
+  escape                           close)";
+
+/// The script commands come from the parser itself.
+std::string playFooter() {
+    return std::string(kWindow) + "\n\nA script has one command a line:\n" + scriptUsage() +
+           "OP is one of == != < <= > >=. Angles are in degrees, lengths in metres.";
+}
 
 /// What the command line says.
 struct Arguments {
     RunOptions run;
     std::vector<std::string> archives, paths;
     std::string archive, headless, size, view, plugin;
+    std::optional<double> timeStep;
     bool realTime = false, json = false, strict = false, update = false;
     int samples = 1;
     std::string name;
@@ -97,23 +107,25 @@ void addCommon(CLI::App& command, Arguments& a) {
 
 void addPlay(CLI::App& app, Arguments& a) {
     CLI::App* play = app.add_subcommand("play", "Open an archive: draw what it describes");
-    play->footer(kScripts);
+    play->footer(playFooter());
     play->add_option("archive", a.archive, "An .xml file, or the folder of an archive")->required();
-    play->add_flag("--headless{osmesa}", a.headless, "Draw without a window (=osmesa, =egl)")
-        ->check(CLI::IsMember({"osmesa", "egl"}).description(""));
+    play->add_flag("--headless{any}", a.headless,
+                   "Draw without a window or a display; =osmesa or =egl says how")
+        ->check(CLI::IsMember({"osmesa", "egl", "any"}).description(""));
     play->add_option("--size", a.size, "Size of the picture [1024x768]")
         ->type_name("WxH")
         ->check(validSize());
     play->add_option("--frames", a.run.frames,
-                     "Frames to draw; without it, until the picture is complete, at most 1000")
+                     "Frames to draw; without it, until the window is closed, or headless until "
+                     "the picture is complete, at most 1000")
         ->type_name("N")
         ->check(within(1, 1000000000));
     CLI::Option* step =
-        play->add_option("--time-step", a.run.player.timeStep, "Seconds from frame to frame [1/60]")
+        play->add_option("--time-step", a.timeStep,
+                         "Seconds from frame to frame [a window: real time; headless: 1/60]")
             ->type_name("SECONDS")
             ->check(within(1e-6, 1e6));
-    play->add_flag("--real-time", a.realTime, "Follow the clock instead of --time-step")
-        ->excludes(step);
+    play->add_flag("--real-time", a.realTime, "Follow the clock, also headless")->excludes(step);
     play->add_option("--camera", a.view, "Where to look from")->type_name("")->check(validView());
     play->add_option("--screenshot", a.run.screenshot, "Write the last frame (PNG)")
         ->type_name("FILE");
@@ -169,23 +181,24 @@ std::string unknownSubcommand(const std::string& word) {
 }
 
 int play(const Registry& registry, Arguments& a) {
-    if (a.headless.empty()) {
-        return fail(kWrongUsage, "there is no window yet; add --headless, such as\n"
-                                 "  terrane play " +
-                                     a.archive + " --headless --screenshot picture.png");
-    }
-    if (a.headless == "egl") return fail(kWrongUsage, "--headless=egl is not built yet");
     if (a.samples > 1) return fail(kWrongUsage, "more than one sample is not built yet");
     PlayerOptions& player = a.run.player;
     player.archive = a.archive;
     player.paths = toPaths(a.paths);
     player.allocations = countedAllocations;
+    a.run.window = a.headless.empty();
+    if (a.headless == "egl") player.headless = HeadlessKind::egl;
+    if (a.headless == "osmesa") player.headless = HeadlessKind::osmesa;
+    // People want to see the time pass as it does; pictures are to be the same each time.
+    if (a.timeStep)
+        player.timeStep = *a.timeStep;
+    else if (a.realTime || a.run.window)
+        player.timeStep = 0;
     if (const auto size = parseSize(a.size)) {
         player.width = size->width;
         player.height = size->height;
     }
     if (!a.view.empty()) player.view = parseView(a.view);
-    if (a.realTime) player.timeStep = 0;
     return run(registry, a.run, {std::cin, std::cout, std::cerr});
 }
 

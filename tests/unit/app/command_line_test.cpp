@@ -2,6 +2,8 @@
 #include "archive_folder.h"
 
 #include "core/files.h"
+#include "environment.h"
+#include "render/context_attempt.h"
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -54,7 +56,6 @@ TEST_CASE_FIXTURE(Terrane, "wrong usage exits with 2 and says why") {
         {"", "subcommand"},
         {"paly x", "there is no subcommand 'paly'"},
         {"play", "archive is required"},
-        {"play %", "add --headless"},
         {"play % --headless --frames many", "--frames"},
         {"play % --headless --frames 0", "--frames"},
         {"play % --headless --size 3", "no size such as 1024x768"},
@@ -81,10 +82,52 @@ TEST_CASE_FIXTURE(Terrane, "wrong usage exits with 2 and says why") {
 
 TEST_CASE_FIXTURE(Terrane, "help and version are no failures") {
     contains(run("--help").out, "terrane play archives/mountains --headless");
-    contains(run("play --help").out, "--screenshot");
+    const std::string help = run("play --help").out;
+    contains(help, "--screenshot");
+    contains(help, "wait tiles [MAXFRAMES]");
+    contains(help, "reload (not built yet)");
     contains(run("--version").out, "terrane ");
     for (const char* words : {"--help", "play --help", "check --help", "test --help", "--version"})
         CHECK(run(words).status == 0);
+}
+
+TEST_CASE_FIXTURE(Terrane, "without a display there is no window, and a hint") {
+    writeColour("1.0, 1.0, 1.0");
+    const test::Environment none("DISPLAY", std::nullopt);
+    const test::Environment noWayland("WAYLAND_DISPLAY", std::nullopt);
+    const Result result = run("play %");
+    CHECK(result.status == 1);
+    contains(result.err, "error: no window can be opened: ");
+    contains(result.err, "add --headless --screenshot FILE");
+}
+
+TEST_CASE_FIXTURE(Terrane, "a driver with too old an OpenGL is told by version and name") {
+    writeColour("1.0, 1.0, 1.0");
+    const test::Environment old("MESA_GL_VERSION_OVERRIDE", "4.1");
+    for (const char* kind : {"--headless", "--headless=osmesa", "--headless=egl"}) {
+        CAPTURE(kind);
+        const Result result = run(std::string("play % --frames 1 ") + kind);
+        CHECK(result.status == 1);
+        contains(result.err, "OpenGL 4.1 (llvmpipe");
+        contains(result.err, "expected: OpenGL 4.5 core");
+    }
+}
+
+TEST_CASE_FIXTURE(Terrane, "what can't be had without a window is replaced, with a warning") {
+    writeColour("1.0, 1.0, 1.0");
+    const std::string play = "play % --frames 1 ";
+    CHECK(run(play + "--headless=egl --log-level warning").err == "");
+    if (!builtWithOsMesa()) {
+        const Result result = run(play + "--headless=osmesa");
+        CHECK(result.status == 0);
+        contains(result.err, "this build is without OSMesa; drawing with EGL instead");
+        return;
+    }
+    const test::Environment nowhere("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json");
+    const Result result = run(play + "--headless=egl");
+    CHECK(result.status == 0);
+    contains(result.err, "warning: EGL has");
+    contains(result.err, "drawing with OSMesa instead [context-fallback]");
 }
 
 TEST_CASE_FIXTURE(Terrane, "play writes what it is told to") {

@@ -32,7 +32,7 @@ namespace terrane::test {
 class TerrainFixture {
 public:
     TerrainFixture()
-        : context(createOsMesaContext(diagnostics, {.debug = true})) {
+        : context(createHeadlessContext(diagnostics, {.debug = true})) {
         REQUIRE(context);
         context->makeCurrent();
         bindings.emplace(*context);

@@ -44,7 +44,7 @@ struct ArchiveFixture {
 
     Diagnostics diagnostics;
     Registry registry;
-    std::unique_ptr<GlContext> context = createOsMesaContext(diagnostics, {.debug = true});
+    std::unique_ptr<GlContext> context = createHeadlessContext(diagnostics, {.debug = true});
     test::TemporaryFolder folder;
     std::optional<Library> library;
     std::optional<ResourceManager> manager;

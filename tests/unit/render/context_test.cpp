@@ -25,13 +25,13 @@ TEST_CASE_FIXTURE(GlFixture, "A GL error becomes a diagnostic") {
 
 TEST_CASE("The cap on anisotropy can be raised on a software renderer") {
     Diagnostics diagnostics;
-    const auto context = createOsMesaContext(diagnostics, {.maxAnisotropy = 4});
+    const auto context = createHeadlessContext(diagnostics, {.maxAnisotropy = 4});
     REQUIRE(context);
     CHECK(context->maxAnisotropy() == 4);
 }
 
 TEST_CASE_FIXTURE(GlFixture, "Two contexts stand side by side in one thread") {
-    const auto other = createOsMesaContext(diagnostics, {.debug = true});
+    const auto other = createHeadlessContext(diagnostics, {.debug = true});
     REQUIRE(other);
     CHECK(other->isCurrent());
     CHECK_FALSE(context->isCurrent());

@@ -361,7 +361,7 @@ TEST_CASE_FIXTURE(GlFixture, "The render target is resized with its viewport and
 }
 
 TEST_CASE_FIXTURE(GlFixture, "Objects of two contexts do not meet") {
-    const auto other = createOsMesaContext(diagnostics, {.debug = true});
+    const auto other = createHeadlessContext(diagnostics, {.debug = true});
     REQUIRE(other);
     {
         auto second = std::make_unique<RenderTarget>(*other, 2, 2);

@@ -17,7 +17,7 @@ namespace terrane {
 struct GlFixture {
     Diagnostics diagnostics;
     std::unique_ptr<GlContext> context =
-        createOsMesaContext(diagnostics, GlContext::Options{.debug = true});
+        createHeadlessContext(diagnostics, GlContext::Options{.debug = true});
 
     GlFixture() {
         REQUIRE(context);

@@ -31,7 +31,7 @@ struct SceneFixture {
     static constexpr int kSize = 16;
 
     Diagnostics diagnostics;
-    std::unique_ptr<GlContext> context = createOsMesaContext(diagnostics, {.debug = true});
+    std::unique_ptr<GlContext> context = createHeadlessContext(diagnostics, {.debug = true});
     Registry registry;
     test::TemporaryFolder folder;
     std::unique_ptr<Library> library;
