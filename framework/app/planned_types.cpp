@@ -49,7 +49,6 @@ void declarePlannedTypes(Registry& registry) {
     declarePlannedDrawing(registry);
     declarePlannedHandlers(registry);
     declarePlannedParticles(registry);
-    registry.planned<>("tileSamplerZ", "Hands elevation tiles to shaders and reads heights back.");
     registry.planned<TileLayer>("debugOrthoLayer", "Writes the number of each tile's slot on it.");
     registry.planned<TileProducer>("contourProducer", "Contour lines of an elevation producer.");
 }

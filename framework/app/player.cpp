@@ -11,7 +11,9 @@
 #include "scene/scene_manager.h"
 #include "task/multithread_scheduler.h"
 #include "terrain/terrain_node.h"
+#include "terrain/tile_sampler.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -63,6 +65,8 @@ bool Player::open() {
     resources_ = std::make_unique<ResourceManager>(registry_, *library_, diagnostics_);
     resources_->services().provide(*context_);
     resources_->services().provide(*bindings_);
+    readbackTiming_.sameFrameInEachRun = options_.timeStep > 0;
+    resources_->services().provide(readbackTiming_);
     scene_ = std::make_unique<SceneManager>(*resources_, *context_, target_->framebuffer());
     settings_ = readPlayerSettings(*library_, registry_);
     return true;
@@ -107,6 +111,7 @@ bool Player::setScene(bool rootRequired) {
     if (!settings_.root) return false;
     scene_->setRoot(settings_.root);
     terrains_ = terrainsOf(*settings_.root);
+    samplers_ = samplersOf(*settings_.root);
     scene_->setCamera(settings_.camera, settings_.method);
     const Clock::time_point loaded = Clock::now();
     metrics_.startup.load += milliseconds(begin, loaded);
@@ -177,7 +182,7 @@ bool Player::frame() {
     }
     if (frames_ == 0) metrics_.startup.firstFrame = milliseconds(begin, Clock::now());
     ++frames_;
-    countQuietFrame(!moved && tasks.waiting == 0 && tasks.kept == 0);
+    countQuietFrame(!moved && tasks.waiting == 0 && tasks.kept == 0 && isSettled());
     return drawn;
 }
 
@@ -219,7 +224,14 @@ void Player::clear() {
 
 void Player::followGround() {
     const TerrainNode* const terrain = terrainBelowCamera(terrains_);
-    if (terrain) controller_->groundHeight = terrain->groundHeight();
+    if (!terrain) return;
+    controller_->groundHeight = terrain->groundHeight();
+    shareGroundHeight(*terrain, terrains_);
+}
+
+bool Player::isSettled() const {
+    return std::all_of(samplers_.begin(), samplers_.end(),
+                       [](const TileSampler* sampler) { return sampler->isSettled(); });
 }
 
 void Player::countQuietFrame(bool nothingMade) {

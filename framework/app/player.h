@@ -7,6 +7,7 @@
 #include "app/trace.h"
 #include "core/diagnostic.h"
 #include "core/image.h"
+#include "render/pixel_readback.h"
 #include "ui/view_controller.h"
 
 #include <chrono>
@@ -26,6 +27,7 @@ class ResourceManager;
 class SceneManager;
 class Scheduler;
 class TerrainNode;
+class TileSampler;
 struct ProgramBindings;
 
 /// Plays one archive: loads it, moves its camera, draws its frames into a picture of its own. Owns
@@ -64,8 +66,8 @@ public:
     /// Draws frames until the picture is complete. False when it is not after so many, or when
     /// there is nothing to draw.
     bool drawUntilComplete(int mostFrames = kMostFrames);
-    /// The picture is complete: the last frames made no tile and left none waiting, and neither
-    /// view nor ground has moved.
+    /// The picture is complete: the last frames made no tile and left none waiting, nothing is
+    /// still to be read back from them, and neither view nor ground has moved.
     bool complete() const;
     int frames() const { return frames_; }
     /// Of the last frame, seconds since the first one.
@@ -103,7 +105,7 @@ public:
     std::string traceJson() const;
 
 private:
-    /// What is read back from the GPU is some frames late; so long must nothing happen.
+    /// What happened in a frame may have consequences in the next: so long must nothing happen.
     static constexpr int kQuietFrames = 3;
     using Clock = std::chrono::steady_clock;
 
@@ -118,6 +120,7 @@ private:
     void placeCamera();
     void clear();
     void followGround();
+    bool isSettled() const;
     void countQuietFrame(bool nothingMade);
 
     const Registry& registry_;
@@ -129,12 +132,14 @@ private:
     std::unique_ptr<Library> library_;
     std::unique_ptr<GlContext> context_;
     std::unique_ptr<ProgramBindings> bindings_;
+    ReadbackTiming readbackTiming_;
     std::unique_ptr<RenderTarget> target_;
     std::shared_ptr<Scheduler> ownScheduler_; ///< of archives without one
     std::unique_ptr<ResourceManager> resources_;
     std::unique_ptr<SceneManager> scene_;
     PlayerSettings settings_;
     std::vector<TerrainNode*> terrains_; ///< of the scene
+    std::vector<TileSampler*> samplers_;
     std::unique_ptr<TerrainViewController> controller_;
 
     Clock::time_point start_{};

@@ -5,6 +5,7 @@
 #include "terrain/cylindrical_deformation.h"
 #include "terrain/spherical_deformation.h"
 #include "terrain/terrain_node.h"
+#include "terrain/tile_sampler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +14,20 @@ namespace terrane {
 
 namespace {
 
-void collect(const SceneNode& node, std::vector<TerrainNode*>& terrains) {
-    for (TerrainNode* terrain : node.fieldsOf<TerrainNode>())
-        terrains.push_back(terrain);
+template <class T>
+void collect(const SceneNode& node, std::vector<T*>& all) {
+    for (T* found : node.fieldsOf<T>())
+        all.push_back(found);
     for (const auto& child : node.children)
-        collect(*child, terrains);
+        collect(*child, all);
 }
 
-bool isBelowCamera(const TerrainNode& terrain) {
-    const TerrainState& state = terrain.state();
-    const double size = terrain.parameters().size;
-    return state.cameraIsLocal && std::abs(state.localCamera.x) <= size &&
-           std::abs(state.localCamera.y) <= size;
+bool isSamePlanet(const TerrainNode& a, const TerrainNode& b) {
+    const auto isSphere = [](const TerrainNode& terrain) {
+        return dynamic_cast<const SphericalDeformation*>(&terrain.deformation()) != nullptr;
+    };
+    return isSphere(a) && isSphere(b) && a.deformation().radius() == b.deformation().radius() &&
+           a.state().localToWorld[3] == b.state().localToWorld[3];
 }
 
 double sizeOf(const Box& box) {
@@ -41,11 +44,27 @@ std::vector<TerrainNode*> terrainsOf(const SceneNode& root) {
     return terrains;
 }
 
+std::vector<TileSampler*> samplersOf(const SceneNode& root) {
+    std::vector<TileSampler*> samplers;
+    collect(root, samplers);
+    return samplers;
+}
+
 TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains) {
+    TerrainNode* first = nullptr;
     for (TerrainNode* terrain : terrains) {
-        if (isBelowCamera(*terrain)) return terrain;
+        if (!terrain->isBelowCamera(terrain->root())) continue;
+        if (terrain->groundMeasured()) return terrain;
+        if (!first) first = terrain;
     }
+    if (first) return first;
     return terrains.empty() ? nullptr : terrains.front();
+}
+
+void shareGroundHeight(const TerrainNode& belowCamera, const std::vector<TerrainNode*>& terrains) {
+    for (TerrainNode* terrain : terrains)
+        if (terrain != &belowCamera && isSamePlanet(*terrain, belowCamera))
+            terrain->setGroundHeight(belowCamera.groundHeight());
 }
 
 std::unique_ptr<TerrainViewController> makeViewController(const SceneNode& root) {

@@ -10,13 +10,22 @@ namespace terrane {
 
 class SceneNode;
 class TerrainNode;
+class TileSampler;
 
 /// The terrains of a scene in document order, depth first.
 std::vector<TerrainNode*> terrainsOf(const SceneNode& root);
 
-/// The terrain that the camera is above: the first one whose root quad it is over, else the first
-/// one; null when there is none. As of their last update.
+/// Their tile samplers, node by node.
+std::vector<TileSampler*> samplersOf(const SceneNode& root);
+
+/// The terrain that the camera is above: of those whose root quad it is over, the first one whose
+/// ground was measured, or else the first one; the first of all when it is over none; null when
+/// there is none. As of their last update.
 TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains);
+
+/// Tells the other faces of a planet how high the ground is below the camera, so that they are
+/// divided as finely along its edges.
+void shareGroundHeight(const TerrainNode& belowCamera, const std::vector<TerrainNode*>& terrains);
 
 /// The view controller for the shape of the first terrain, with its start view: straight down from
 /// d = size (flat), 6 radii (planet) or 0.9 radii (cylinder) (terrain reference 5.1). Without a

@@ -13,6 +13,8 @@
 
 namespace terrane {
 
+class ElevationReadback;
+
 /// Raster tiles on the GPU: each slot is a layer of a 2D array texture. As many textures as the
 /// limit on layers asks for, all full but the last (terrain reference 1.1).
 class GpuTileStorage : public TileStorage {
@@ -65,6 +67,9 @@ public:
     /// For `textureQuadtree`: which slots hold which quads around the camera, 4096 x 8 texels of
     /// RG8, one row for each producer of the cache (terrain reference 3.6). Null without `tileMap`.
     const std::shared_ptr<Texture>& tileMap() const { return tileMap_; }
+
+    /// Shared by all who read elevations of these tiles back; see ElevationReadback::of.
+    std::weak_ptr<ElevationReadback> elevationReadback;
 
     static constexpr int kMapWidth = 4096;
     static constexpr int kMapHeight = 8;

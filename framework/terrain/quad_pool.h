@@ -35,7 +35,7 @@ public:
 
     /// The only quad without siblings; its index is 0.
     TerrainQuad& createRoot(double ox, double oy, double l, double zmin, double zmax);
-    /// Gives a leaf four children, which inherit its elevations.
+    /// Gives a leaf four children, with its elevations.
     void split(TerrainQuad& quad);
     /// Drops all below a quad, which becomes a leaf.
     void collapse(TerrainQuad& quad);

@@ -16,6 +16,8 @@ TerrainNode::TerrainNode(Parameters parameters)
     assert(p.zmin <= p.zmax && "TerrainNode: zmin must not be above zmax");
     if (!p.deformation) p.deformation = std::make_shared<Deformation>();
     p.maxLevel = std::clamp(p.maxLevel, 0, kDeepestLevel);
+    zmin_ = p.zmin;
+    zmax_ = p.zmax;
     quads_.createRoot(-p.size, -p.size, 2 * p.size, p.zmin, p.zmax);
 }
 
@@ -25,7 +27,7 @@ void TerrainNode::setGroundHeight(double height) {
 
 bool TerrainNode::update(const TerrainView& view) {
     const std::optional<TerrainState> state =
-        terrainState(view, deformation(), parameters_.splitFactor, groundHeight_, parameters_.zmin);
+        terrainState(view, deformation(), parameters_.splitFactor, groundHeight_, zmin_);
     TerrainQuad& root = quads_[0];
     limitReached_ = false;
     if (!state) {
@@ -42,7 +44,7 @@ bool TerrainNode::update(const TerrainView& view) {
 
 void TerrainNode::resetHorizon() {
     const bool useful = parameters_.horizonCulling && state_.cameraIsLocal &&
-                        state_.localCamera.z <= root().zmax &&
+                        state_.localCamera.z <= zmax_ &&
                         deformation().hasStraightSight(state_.localCamera);
     if (useful)
         horizon_.reset(state_.localCamera,
@@ -51,12 +53,21 @@ void TerrainNode::resetHorizon() {
         horizon_.disable();
 }
 
+// The space in which the ground of a quad is, however finely it is drawn.
+QuadBox TerrainNode::wholeBox(const TerrainQuad& quad) const {
+    return {quad.ox, quad.oy, quad.l, zmin_, zmax_};
+}
+
 void TerrainNode::updateQuad(TerrainQuad& quad, Visibility ofParent) {
+    if (!quad.measured) {
+        quad.zmin = zmin_;
+        quad.zmax = zmax_;
+    }
     quad.visibility = ofParent == Visibility::partial
-                          ? deformation().visibility(state_.viewer, quad.box())
+                          ? deformation().visibility(state_.viewer, wholeBox(quad))
                           : ofParent;
     if (quad.isVisible() && quad.occluded) {
-        quad.occluded = horizon_.isOccluded(quad.box());
+        quad.occluded = horizon_.isOccluded(wholeBox(quad));
         if (quad.occluded) quad.visibility = Visibility::none;
     }
     if (isToSplit(quad)) {
@@ -69,8 +80,9 @@ void TerrainNode::updateQuad(TerrainQuad& quad, Visibility ofParent) {
 }
 
 bool TerrainNode::isToSplit(const TerrainQuad& quad) {
-    const bool wanted = (quad.isVisible() || splitInvisibleQuads_) &&
-                        quad.level < parameters_.maxLevel &&
+    const bool seen =
+        quad.isVisible() || splitInvisibleQuads_ || (splitBelowCamera_ && isBelowCamera(quad));
+    const bool wanted = seen && quad.level < parameters_.maxLevel &&
                         distanceToCamera(quad) < quad.l * state_.splitDistance;
     if (!wanted || !quad.isLeaf()) return wanted;
     const bool room = quads_.size() + QuadPool::kSiblings <= parameters_.maxQuads;
@@ -90,8 +102,18 @@ void TerrainNode::updateChildren(TerrainQuad& quad) {
 
 void TerrainNode::updateLeaf(TerrainQuad& quad) {
     if (!quad.isVisible()) return;
+    // How it is drawn is known now, so the measured elevations may count.
+    if (quad.measured && quad.visibility == Visibility::partial)
+        quad.visibility = deformation().visibility(state_.viewer, quad.box());
+    if (!quad.isVisible()) return;
     quad.occluded = horizon_.addOccluder(quad.box());
     if (quad.occluded) quad.visibility = Visibility::none;
+}
+
+bool TerrainNode::isBelowCamera(const TerrainQuad& quad) const {
+    const glm::dvec3& c = state_.localCamera;
+    return state_.cameraIsLocal && c.x >= quad.ox && c.x <= quad.ox + quad.l && c.y >= quad.oy &&
+           c.y <= quad.oy + quad.l;
 }
 
 double TerrainNode::distanceToCamera(const TerrainQuad& quad) const {
@@ -131,6 +153,9 @@ void TerrainNode::setElevations(int index, double zmin, double zmax) {
     if (!valid) return;
     quads_[index].zmin = zmin;
     quads_[index].zmax = zmax;
+    quads_[index].measured = true;
+    zmin_ = std::min(zmin_, zmin);
+    zmax_ = std::max(zmax_, zmax);
 }
 
 } // namespace terrane

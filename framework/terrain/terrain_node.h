@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/source.h"
 #include "resource/resource.h"
 #include "terrain/horizon_buffer.h"
 #include "terrain/quad_pool.h"
@@ -33,6 +34,7 @@ public:
         /// A camera of a tiny field of view could ask for any number of quads; beyond this many
         /// none is split any more, and limitReached() tells.
         int maxQuads = 1 << 20;
+        Place splitFactorPlace; ///< for messages
     };
 
     explicit TerrainNode(Parameters parameters);
@@ -50,11 +52,19 @@ public:
     /// Split also what is outside of the view, for data that is needed there.
     bool splitInvisibleQuads() const { return splitInvisibleQuads_; }
     void setSplitInvisibleQuads(bool split) { splitInvisibleQuads_ = split; }
+    /// Split also the quads that the camera is above, whether it looks down on them or not, for
+    /// the height of the ground below it.
+    void setSplitBelowCamera(bool split) { splitBelowCamera_ = split; }
+    /// Whether the camera is above a quad, seen from the local plane.
+    bool isBelowCamera(const TerrainQuad& quad) const;
 
     /// Elevation of the ground below the camera, metres, from the last measurement; 0 before. Each
     /// terrain has its own. What is no number is ignored.
     double groundHeight() const { return groundHeight_; }
     void setGroundHeight(double height);
+    /// The ground height was measured on this terrain, and not only said to be that of another one.
+    bool groundMeasured() const { return groundMeasured_; }
+    void setGroundMeasured() { groundMeasured_ = true; }
 
     const TerrainQuad& root() const { return quads_[0]; }
     const QuadPool& quads() const { return quads_; }
@@ -63,8 +73,13 @@ public:
     }
     /// Null when the tree has no such quad.
     const TerrainQuad* find(int level, int tx, int ty) const;
-    /// What was measured of a quad's ground; its children, present and future, are not touched.
+    /// What was measured of the ground that is drawn for a quad as long as it is a leaf. Finer
+    /// levels may be higher or lower, so neither its children nor whether it is split depend on it:
+    /// these go by the elevations of the whole terrain, which grow with whatever is measured
+    /// beyond. Ignored when it is no range of numbers.
     void setElevations(int index, double zmin, double zmax);
+    /// What was measured of a quad is out of date.
+    void forgetElevations(int index) { quads_[index].measured = false; }
 
     /// From the camera to a quad, in local metres: the larger of the height above the ground and
     /// the distances along x and y to the nearest side, even from inside of the quad. Infinite when
@@ -84,6 +99,7 @@ private:
     void updateQuad(TerrainQuad& quad, Visibility ofParent);
     void updateChildren(TerrainQuad& quad);
     void updateLeaf(TerrainQuad& quad);
+    QuadBox wholeBox(const TerrainQuad& quad) const;
     bool isToSplit(const TerrainQuad& quad);
     void resetHorizon();
 
@@ -102,7 +118,10 @@ private:
     TerrainState state_;
     HorizonBuffer horizon_;
     double groundHeight_ = 0;
+    bool groundMeasured_ = false;
+    double zmin_ = 0, zmax_ = 0; ///< of all ground: what the author says, and what was measured
     bool splitInvisibleQuads_ = false;
+    bool splitBelowCamera_ = false;
     bool limitReached_ = false;
 };
 

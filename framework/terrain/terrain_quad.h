@@ -20,8 +20,10 @@ struct TerrainQuad {
     double ox = 0, oy = 0; ///< lower left corner, local metres from the centre of the root quad
     double l = 0;          ///< edge, local metres
 
-    /// Elevations of the ground: first those of the parent quad, then what somebody measured.
+    /// Elevations of the ground: those of the whole terrain, unless somebody has measured those of
+    /// this quad.
     double zmin = 0, zmax = 0;
+    bool measured = false;
 
     Visibility visibility = Visibility::none;
     bool occluded = false; ///< hidden behind nearer ground

@@ -66,6 +66,7 @@ std::shared_ptr<TerrainNode> build(const TerrainNodeDescription& d, BuildContext
     std::tie(p.zmin, p.zmax) = std::minmax(*d.zmin, *d.zmax);
     p.deformation = makeDeformation(d);
     p.splitFactor = d.splitFactor;
+    p.splitFactorPlace = d.splitFactor.place;
     p.maxLevel = d.maxLevel;
     p.horizonCulling = d.horizonCulling;
     return std::make_shared<TerrainNode>(std::move(p));

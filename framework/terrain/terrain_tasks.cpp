@@ -73,6 +73,7 @@ public:
         , scene_(scene) {
         for (const TileSampler* sampler : samplers_) {
             if (sampler->parameters().storeInvisible) terrain_.setSplitInvisibleQuads(true);
+            if (sampler->followsCamera()) terrain_.setSplitBelowCamera(true);
         }
     }
 

@@ -3,6 +3,7 @@
 
 #include "producer/tile_id.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace terrane {
@@ -23,5 +24,9 @@ struct TileLocation {
 /// @param tileSize edge of the stored tile in pixels, borders included
 TileLocation locateTile(const TileId& tile, const TileId& quad, int tileSize, int border,
                         const Texture& pool, int layer);
+
+/// Where a point of a tile's quad, x and y in [0,1], lies between its texels: (0,0) is the centre
+/// of the lower left one, borders included.
+glm::dvec2 texelAt(const glm::dvec2& inQuad, int tileSize, int border);
 
 } // namespace terrane

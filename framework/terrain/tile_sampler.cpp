@@ -5,6 +5,7 @@
 #include "resource/registry.h"
 #include "scene/frame_builder.h"
 #include "scene/scene_manager.h"
+#include "terrain/tile_sampler_z.h"
 
 namespace terrane {
 
@@ -23,7 +24,7 @@ TileSampler::~TileSampler() {
     releaseAll();
 }
 
-bool TileSampler::needs(const TerrainQuad& quad) const {
+bool TileSampler::needs(const TerrainNode&, const TerrainQuad& quad) const {
     const TileId id = tileOf(quad);
     bool needed = parameters_.storeLeaf;
     if (!parameters_.storeParent && !quad.isLeaf() && producer().hasChildren(id)) needed = false;
@@ -37,7 +38,7 @@ const Tile* TileSampler::held(const TerrainQuad& quad) const {
     return held.generation == quad.generation ? held.tile : nullptr;
 }
 
-void TileSampler::update(const TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) {
+void TileSampler::update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) {
     if (terrain_ != &terrain) {
         releaseAll();
         terrain_ = &terrain;
@@ -55,7 +56,8 @@ void TileSampler::release(const TerrainNode& terrain) {
     const auto stale = [&](int index) {
         const TerrainQuad& quad = terrain.quads()[index];
         Held& held = held_[index];
-        if (quad.isAlive() && held.generation == quad.generation && needs(quad)) return false;
+        if (quad.isAlive() && held.generation == quad.generation && needs(terrain, quad))
+            return false;
         producer().putTile(*held.tile);
         held.tile = nullptr;
         return true;
@@ -75,7 +77,7 @@ void TileSampler::acquire(const TerrainNode& terrain) {
             for (int i = 0; i < QuadPool::kSiblings; ++i)
                 queue_.push_back(quad.firstChild + i);
         }
-        if (!needs(quad) || held(quad)) continue;
+        if (!needs(terrain, quad) || held(quad)) continue;
         Tile* const tile = producer().getTile(tileOf(quad));
         refused_ |= tile == nullptr;
         if (!tile) continue;
@@ -135,29 +137,65 @@ struct TileSamplerDescription : ElementDescription {
     Attr<bool> mipmap = false;
 };
 
-std::shared_ptr<TileSampler> build(const TileSamplerDescription& d, BuildContext& context) {
-    if (!d.producer->isGpu()) {
-        context.diagnostics().error("wrong-storage", d.producer.place,
-                                    "the tiles of '" + d.producer.name + "' are not textures",
-                                    "a producer whose cache has a gpuTileStorage");
-        return nullptr;
-    }
-    return std::make_shared<TileSampler>(TileSampler::Parameters{.uniform = d.sampler,
-                                                                 .producer = d.producer,
-                                                                 .storeLeaf = d.storeLeaf,
-                                                                 .storeParent = d.storeParent,
-                                                                 .storeInvisible = d.storeInvisible,
-                                                                 .place = d.place});
+using D = TileSamplerDescription;
+
+TileSampler::Parameters parametersOf(const D& d) {
+    return {.uniform = d.sampler,
+            .producer = d.producer,
+            .storeLeaf = d.storeLeaf,
+            .storeParent = d.storeParent,
+            .storeInvisible = d.storeInvisible,
+            .place = d.place};
 }
 
-} // namespace
+GpuTileStorage* storageOf(const D& d, Diagnostics& diagnostics) {
+    auto* const storage = dynamic_cast<GpuTileStorage*>(&d.producer->cache().storage());
+    if (!storage)
+        diagnostics.error("wrong-storage", d.producer.place,
+                          "the tiles of '" + d.producer.name + "' are not textures",
+                          "a producer whose cache has a gpuTileStorage");
+    return storage;
+}
 
-void declareTileSampler(Registry& registry) {
-    using D = TileSamplerDescription;
-    registry
-        .resource<TileSampler, D>("tileSampler",
-                                  "Gives the quads of a terrain tiles, and shaders access to them.")
-        .attribute("sampler", &D::sampler, "the samplerTile variable of the shaders")
+std::shared_ptr<TileSampler> build(const D& d, BuildContext& context) {
+    if (!storageOf(d, context.diagnostics())) return nullptr;
+    return std::make_shared<TileSampler>(parametersOf(d));
+}
+
+bool checkElevations(const D& d, const GpuTileStorage& storage, Diagnostics& diagnostics) {
+    if (d.producer->border() != TileSamplerZ::kBorder) {
+        diagnostics.error("wrong-producer", d.producer.place,
+                          "the tiles of '" + d.producer.name + "' have a border of " +
+                              std::to_string(d.producer->border()) + ", so they are no elevations",
+                          "a producer of elevations, whose border is 2");
+        return false;
+    }
+    const InternalFormatInfo& format = storage.format();
+    const bool floats = format.kind == ChannelKind::real || format.kind == ChannelKind::normalized;
+    if (format.channels >= 3 && floats) return true;
+    const Place& place = storage.formatPlace() ? storage.formatPlace() : d.producer.place;
+    diagnostics.error("wrong-format", place,
+                      "elevations can't be read back from " + std::string(format.name),
+                      "floats with three channels, such as RGB32F");
+    return false;
+}
+
+std::shared_ptr<TileSamplerZ> buildZ(const D& d, BuildContext& context) {
+    Diagnostics& diagnostics = context.diagnostics();
+    GpuTileStorage* const storage = storageOf(d, diagnostics);
+    if (!storage || !checkElevations(d, *storage, diagnostics)) return nullptr;
+    const auto* const timing = context.manager().services().find<ReadbackTiming>();
+    auto readback =
+        ElevationReadback::of(*storage, TileSamplerZ::kBorder, context.service<ProgramBindings>(),
+                              timing ? *timing : ReadbackTiming(), diagnostics);
+    if (!readback) return nullptr;
+    return std::make_shared<TileSamplerZ>(parametersOf(d), std::move(readback));
+}
+
+/// What both have.
+template <class Builder>
+auto&& addAttributes(Builder&& builder) {
+    return builder.attribute("sampler", &D::sampler, "the samplerTile variable of the shaders")
         .required()
         .attribute("producer", &D::producer, "who makes the tiles")
         .required()
@@ -171,10 +209,23 @@ void declareTileSampler(Registry& registry) {
         .attribute("storeInvisible", &D::storeInvisible, "quads outside of the view need tiles")
         .trueUnlessFalse()
         .attribute("async", &D::async, "ancestors stand in until tiles are there")
-        .planned()
+        .planned();
+}
+
+} // namespace
+
+void declareTileSampler(Registry& registry) {
+    addAttributes(
+        registry.resource<TileSampler, D>(
+            "tileSampler", "Gives the quads of a terrain tiles, and shaders access to them."))
         .attribute("mipmap", &D::mipmap, "with async, parts of ancestors may be drawn")
         .planned()
         .build(build);
+    addAttributes(registry.resource<TileSamplerZ, D>(
+                      "tileSamplerZ",
+                      "A tileSampler for elevations that also reads them back: the camera stays "
+                      "above the ground, and quads that can't be seen are not drawn."))
+        .build(buildZ);
 }
 
 } // namespace terrane

@@ -38,10 +38,24 @@ public:
     /// Releases and acquires tiles for the quads of now. The frame waits for those that have to be
     /// produced. A full cache is reported ("cache-full"), and again when a quarter more is needed;
     /// quads then do with ancestors.
-    void update(const TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame);
+    virtual void update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame);
 
     /// The tile of a quad, or of its nearest ancestor that has one with data.
     TileLocation locate(const TerrainNode& terrain, const TerrainQuad& quad) const;
+
+    /// The one of the last update; null before.
+    const TerrainNode* terrain() const { return terrain_; }
+    /// Whether the quads below the camera are wanted even when it can't see them.
+    virtual bool followsCamera() const { return false; }
+    /// Nothing that it asked the GPU for in earlier frames is still to come.
+    virtual bool isSettled() const { return true; }
+
+protected:
+    virtual bool needs(const TerrainNode& terrain, const TerrainQuad& quad) const;
+    /// The tile that is held for a quad; null when there is none.
+    const Tile* held(const TerrainQuad& quad) const;
+    /// Indices of the quads with a tile.
+    const std::vector<int>& heldQuads() const { return heldQuads_; }
 
 private:
     /// The tile held for the quad at this place of the pool.
@@ -50,13 +64,11 @@ private:
         std::uint32_t generation = 0;
     };
 
-    bool needs(const TerrainQuad& quad) const;
     void release(const TerrainNode& terrain);
     void acquire(const TerrainNode& terrain);
     void releaseAll();
     void require(FrameBuilder& frame);
     void reportShortage(Diagnostics& diagnostics);
-    const Tile* held(const TerrainQuad& quad) const;
 
     Parameters parameters_;
     const TerrainNode* terrain_ = nullptr; ///< whose quads are held
@@ -67,7 +79,7 @@ private:
     int reportedNeed_ = 0;                 ///< slots that the last report asked for
 };
 
-/// <tileSampler>
+/// <tileSampler>, <tileSamplerZ>
 void declareTileSampler(Registry& registry);
 
 } // namespace terrane

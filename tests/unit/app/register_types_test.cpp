@@ -118,7 +118,7 @@ TEST_CASE("every element of the original is known, built or not") {
 TEST_CASE("what is built has replaced what was planned") {
     for (const char* tag : {"texture2D", "module", "program", "mesh", "node", "sequence",
                             "multithreadScheduler", "tileCache", "terrainNode", "tileSampler",
-                            "drawTerrain", "elevationProducer", "normalProducer"}) {
+                            "tileSamplerZ", "drawTerrain", "elevationProducer", "normalProducer"}) {
         CAPTURE(tag);
         const ElementDeclaration* const found = standardRegistry().find(tag);
         REQUIRE(found);

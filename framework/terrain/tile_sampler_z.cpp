@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/tile_sampler_z.h"
+
+#include "scene/frame_builder.h"
+#include "scene/scene_manager.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace terrane {
+
+TileSamplerZ::TileSamplerZ(Parameters parameters, std::shared_ptr<ElevationReadback> readback)
+    : TileSampler(std::move(parameters))
+    , readback_(std::move(readback)) {}
+
+TileSamplerZ::~TileSamplerZ() {
+    readback_->forget(point_);
+}
+
+bool TileSamplerZ::needs(const TerrainNode& terrain, const TerrainQuad& quad) const {
+    if (TileSampler::needs(terrain, quad)) return true;
+    return terrain.isBelowCamera(quad) && producer().hasTile({quad.level, quad.tx, quad.ty});
+}
+
+void TileSamplerZ::update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) {
+    TileSampler::update(terrain, scene, frame);
+    readback_->beginFrame(scene.frameNumber());
+    measureQuads(terrain);
+    followGround(terrain);
+    if (readback_->isAsked()) frame.require(readback_->task());
+}
+
+void TileSamplerZ::measureQuads(TerrainNode& terrain) {
+    for (const int index : heldQuads()) {
+        const Tile* const tile = held(terrain.quads()[index]);
+        const ElevationReadback::Range* const range =
+            tile->done() ? readback_->range(*tile) : nullptr;
+        if (range)
+            terrain.setElevations(index, range->zmin, range->zmax);
+        else
+            terrain.forgetElevations(index);
+    }
+}
+
+void TileSamplerZ::followGround(TerrainNode& terrain) {
+    waiting_ = false;
+    if (std::exchange(point_.arrived, false)) {
+        terrain.setGroundHeight(point_.elevation);
+        terrain.setGroundMeasured();
+    }
+    if (!terrain.isBelowCamera(terrain.root())) {
+        moving_ = false;
+        return;
+    }
+    const glm::dvec2 place = whereCameraWillBe(terrain.state());
+    const TerrainQuad* const quad = finestQuad(terrain, place);
+    if (!quad) return;
+    const Tile& tile = *held(*quad);
+    const Sample sample{&tile, tile.id(), tile.task()->completionDate(),
+                        texelAt((place - glm::dvec2(quad->ox, quad->oy)) / quad->l,
+                                tile.cache().storage().tileSize(), producer().border())};
+    // What is nearer than this is the same place: heights move the camera a little sideways, which
+    // must come to an end.
+    constexpr double kSamePlace = 1.0 / 32; // texels
+    const bool same = sample.tile == sample_.tile && sample.id == sample_.id &&
+                      sample.date == sample_.date &&
+                      glm::distance(sample.texel, sample_.texel) < kSamePlace;
+    if (same) return;
+    waiting_ = !readback_->ask(point_, tile, sample.texel);
+    if (!waiting_) sample_ = sample;
+}
+
+// The answer is used by the frame after the one in which it arrives.
+glm::dvec2 TileSamplerZ::whereCameraWillBe(const TerrainState& state) {
+    constexpr int kFrames = PixelReadback::kLatency + 1;
+    const glm::dvec2 camera(state.localCamera);
+    const glm::dvec2 before = std::exchange(camera_, camera);
+    const glm::dvec2 step = moving_ ? camera - before : glm::dvec2(0);
+    const glm::dvec2 stepBefore = std::exchange(step_, step);
+    moving_ = true;
+    // After a jump nobody knows where it goes.
+    const bool steady = glm::distance(step, stepBefore) <= 0.5 * glm::length(step);
+    return steady ? camera + static_cast<double>(kFrames) * step : camera;
+}
+
+// The finest one there with a tile.
+const TerrainQuad* TileSamplerZ::finestQuad(const TerrainNode& terrain,
+                                            const glm::dvec2& local) const {
+    const TerrainQuad& root = terrain.root();
+    const glm::dvec2 corner(root.ox, root.oy);
+    const glm::dvec2 inside = glm::clamp(local, corner, corner + root.l);
+    const TerrainQuad* finest = nullptr;
+    const TerrainQuad* quad = &root;
+    while (true) {
+        const Tile* const tile = held(*quad);
+        if (tile && tile->done()) finest = quad;
+        if (quad->isLeaf()) return finest;
+        const int east = inside.x < quad->ox + quad->l / 2 ? 0 : 1;
+        const int north = inside.y < quad->oy + quad->l / 2 ? 0 : 1;
+        quad = &terrain.child(*quad, east + 2 * north);
+    }
+}
+
+} // namespace terrane

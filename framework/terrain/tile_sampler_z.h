@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "producer/elevation_readback.h"
+#include "terrain/tile_sampler.h"
+
+#include <memory>
+
+#include <glm/vec2.hpp>
+
+namespace terrane {
+
+/// A sampler of elevation tiles that reads them back some frames later: the lowest and the highest
+/// point of each tile go to its quad, so that what can't be seen isn't drawn; the height of the
+/// ground below the camera goes to the terrain (terrain reference 1.5, 3.7). GL thread.
+///
+/// The height is that of the finest tile below the camera, between its texels. A camera that moves
+/// steadily gets the height of where it will be when the answer is there. Tiles below the camera
+/// are always needed.
+class TileSamplerZ final : public TileSampler {
+public:
+    /// Of the tiles, whose channel z is the elevation.
+    static constexpr int kBorder = 2;
+
+    TileSamplerZ(Parameters parameters, std::shared_ptr<ElevationReadback> readback);
+    ~TileSamplerZ() override;
+
+    void update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) override;
+    bool followsCamera() const override { return true; }
+
+    /// Nothing that was asked for, by any sampler of these tiles, is still to come.
+    bool isSettled() const override { return !waiting_ && readback_->isSettled(); }
+
+protected:
+    bool needs(const TerrainNode& terrain, const TerrainQuad& quad) const override;
+
+private:
+    /// What was last asked for.
+    struct Sample {
+        const Tile* tile = nullptr;
+        TileId id;
+        Task::Date date = 0;
+        glm::dvec2 texel{0};
+    };
+
+    void measureQuads(TerrainNode& terrain);
+    void followGround(TerrainNode& terrain);
+    glm::dvec2 whereCameraWillBe(const TerrainState& state);
+    const TerrainQuad* finestQuad(const TerrainNode& terrain, const glm::dvec2& local) const;
+
+    const std::shared_ptr<ElevationReadback> readback_;
+    ElevationReadback::Point point_;
+    Sample sample_;
+    bool waiting_ = false; ///< there was no room to ask for what is below the camera
+    bool moving_ = false;  ///< the next two are those of the frame before
+    glm::dvec2 camera_{0}, step_{0};
+};
+
+} // namespace terrane
