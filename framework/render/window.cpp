@@ -74,14 +74,13 @@ struct Window::Listener {
     static void button(GLFWwindow* window, int code, int action, int bits) {
         const auto button = buttonOf(code);
         if (!button) return;
-        double x = 0, y = 0;
-        glfwGetCursorPos(window, &x, &y);
-        const auto [px, py] = of(window).toPixels(x, y);
-        of(window).add(MouseButtonEvent{*button, action == GLFW_PRESS, px, py, modifiersOf(bits)});
+        // GLFW asks the desktop where the pointer is by now, which may be long after the press.
+        const auto [x, y] = of(window).pointer_;
+        of(window).add(MouseButtonEvent{*button, action == GLFW_PRESS, x, y, modifiersOf(bits)});
     }
     static void move(GLFWwindow* window, double x, double y) {
-        const auto [px, py] = of(window).toPixels(x, y);
-        of(window).add(MouseMoveEvent{px, py});
+        of(window).point(x, y);
+        of(window).add(MouseMoveEvent{of(window).pointer_.first, of(window).pointer_.second});
     }
     static void wheel(GLFWwindow* window, double, double steps) {
         // GLFW tells no modifiers here.
@@ -157,6 +156,9 @@ bool Window::create(const Options& options, bool debug, int major, int minor) {
     glfwSetScrollCallback(window_, Listener::wheel);
     glfwSetFramebufferSizeCallback(window_, Listener::size);
     measure();
+    double x = 0, y = 0;
+    glfwGetCursorPos(window_, &x, &y);
+    point(x, y);
     return true;
 }
 
@@ -204,12 +206,11 @@ void Window::measure() {
     resized_ = true;
 }
 
-std::pair<double, double> Window::toPixels(double x, double y) const {
+void Window::point(double x, double y) {
     // The pointer moves in units of the desktop.
     int width = 0, height = 0;
     glfwGetWindowSize(window_, &width, &height);
-    if (width < 1 || height < 1) return {0, 0};
-    return {x * width_ / width, y * height_ / height};
+    if (width > 0 && height > 0) pointer_ = {x * width_ / width, y * height_ / height};
 }
 
 } // namespace terrane

@@ -66,12 +66,13 @@ private:
     bool create(const Options& options, bool debug, int major, int minor);
     void add(const InputEvent& event) { events_.push_back(event); }
     void measure();
-    std::pair<double, double> toPixels(double x, double y) const;
+    void point(double x, double y);
 
     GLFWwindow* window_ = nullptr;
     std::vector<InputEvent> events_;
     int width_ = 0, height_ = 0;
-    bool resized_ = false; ///< since the last picture
+    std::pair<double, double> pointer_; ///< pixels
+    bool resized_ = false;              ///< since the last picture
 };
 
 } // namespace terrane

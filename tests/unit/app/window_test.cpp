@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/player.h"
+#include "app/player_window.h"
+#include "archive_folder.h"
+#include "render/render_target.h"
+#include "terrane_program.h"
+#include "virtual_display.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <thread>
+
+using namespace terrane;
+using test::VirtualDisplay;
+
+namespace {
+
+/// archives/quadtree in a window of a display without a screen.
+class QuadtreeWindow {
+public:
+    QuadtreeWindow() {
+        if (!display.running()) return;
+        const char* const source = std::getenv("TERRANE_SOURCE");
+        PlayerOptions options{.archive = std::filesystem::path(source ? source : ".") /
+                                         "archives/quadtree",
+                              .width = 160,
+                              .height = 120,
+                              .view = View{.theta = 40, .d = 400},
+                              .debug = true};
+        window.install(options);
+        player = std::make_unique<Player>(standardRegistry(), options);
+        REQUIRE(player->load());
+        REQUIRE(shows([] { return true; }));
+    }
+
+    /// Draws frames until something holds; false when it does not in time.
+    bool shows(const std::function<bool()>& condition) {
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (std::chrono::steady_clock::now() < deadline) {
+            if (!window.prepare(*player)) return false;
+            REQUIRE(player->frame());
+            window.show(*player);
+            if (condition()) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return false;
+    }
+
+    /// What people see is what was drawn.
+    bool screenAgrees() const {
+        const int width = player->picture().width(), height = player->picture().height();
+        return comparePictures(display.screen(width, height), player->capture()).agree(1);
+    }
+
+    const View& view() { return player->controller().view; }
+
+    VirtualDisplay display;
+    PlayerWindow window{"quadtree"};
+    std::unique_ptr<Player> player;
+};
+
+bool skipped(const VirtualDisplay& display) {
+    if (!display.running()) MESSAGE("skipped: there is no Xvfb");
+    return !display.running();
+}
+
+} // namespace
+
+TEST_CASE_FIXTURE(QuadtreeWindow, "a window shows its player's picture and follows the mouse") {
+    if (skipped(display)) return;
+    CHECK(player->picture().width() == 160);
+    CHECK(player->picture().height() == 120);
+    CHECK(shows([&] { return player->complete() && screenAgrees(); }));
+    if (!VirtualDisplay::act("search --name '^quadtree - Terrane$' windowsize 240 100")) {
+        MESSAGE("skipped: there is no xdotool");
+        return;
+    }
+    CHECK(shows([&] { return player->picture().width() == 240; }));
+    CHECK(player->picture().height() == 100);
+    CHECK(shows([&] { return player->complete() && screenAgrees(); }));
+
+    const double d = view().d;
+    REQUIRE(VirtualDisplay::act("mousemove 120 50 click 5"));
+    CHECK(shows([&] { return view().d == doctest::Approx(1.2 * d); }));
+    REQUIRE(VirtualDisplay::act("click 4"));
+    CHECK(shows([&] { return view().d == doctest::Approx(d); }));
+
+    const auto grabbed = player->groundAt(120, 50);
+    REQUIRE(grabbed);
+    REQUIRE(VirtualDisplay::act("mousedown 1 mousemove 150 70 mouseup 1"));
+    CHECK(shows([&] {
+        const auto point = player->groundAt(150, 70);
+        return point && glm::distance(*point, *grabbed) < 1;
+    }));
+
+    const double phi = view().phi, theta = view().theta;
+    REQUIRE(VirtualDisplay::act("keydown ctrl mousedown 3 mousemove 100 90 mouseup 3 keyup ctrl"));
+    CHECK(shows([&] { return view().phi == doctest::Approx(phi + 0.1); }));
+    CHECK(view().theta == doctest::Approx(theta - 0.04));
+
+    REQUIRE(VirtualDisplay::act("keydown Prior"));
+    CHECK(shows([&] { return view().d > 1.1 * d; }));
+    REQUIRE(VirtualDisplay::act("keyup Prior"));
+
+    REQUIRE(VirtualDisplay::act("key Escape"));
+    CHECK(!shows([] { return false; }));
+    CHECK(window.closing());
+    for (const Diagnostic& diagnostic : player->diagnostics().all())
+        FAIL_CHECK(toString(diagnostic));
+}
+
+TEST_CASE_FIXTURE(test::TerraneProgram, "play shows frames in a window") {
+    const VirtualDisplay display;
+    if (skipped(display)) return;
+    writeColour("0.0, 0.5, 1.0");
+    const std::string play = "play % --size 64x48 ";
+    const Result shown = run(play + "--frames 3 --screenshot %/window.png --metrics %/m.json");
+    CHECK(shown.status == 0);
+    CHECK(run(play + "--headless --frames 3 --screenshot %/headless.png").status == 0);
+    CHECK(readFile(*this / "window.png") == readFile(*this / "headless.png"));
+    CHECK(readFile(*this / "m.json").value_or("").find("\"size\": [\n    64,\n    48\n") !=
+          std::string::npos);
+
+    write("script", "frames 2\nwait tiles\nexpect no-errors\n");
+    CHECK(run(play + "--script %/script").status == 0);
+    const Result answers = run(play + "--script -", "frames 2\nexpect metric /size/1 == 48\n");
+    CHECK(answers.out == "ok\nok\n");
+
+    const test::Environment old("MESA_GL_VERSION_OVERRIDE", "4.1");
+    const Result fault = run(play + "--frames 1");
+    CHECK(fault.status == 1);
+    CHECK(fault.err.find("the display has OpenGL 4.1 (llvmpipe") != std::string::npos);
+}
+
+TEST_CASE_FIXTURE(test::TerraneProgram, "a window does not hide errors of an archive") {
+    const VirtualDisplay display;
+    if (skipped(display)) return;
+    writeColour("1.0, 0.5, 0.0");
+    std::string scene = kScene;
+    scene.insert(scene.find("        <drawMesh"), "        <drawMesh name=\"nothing\"/>\n");
+    write("archive.xml", scene);
+    const Result result = run("play % --frames 1");
+    CHECK(result.status == 1);
+    CHECK(result.err.find("archive.xml:5:") != std::string::npos);
+    CHECK(run("play % --frames 1 --keep-going").status == 0);
+}
