@@ -12,8 +12,6 @@ namespace {
 
 // Terrain reference 1.7, 1.8.
 void declarePlannedTerrain(Registry& registry) {
-    registry.planned<TileProducer>("residualProducer", "Elevations from a file.");
-    registry.planned<TileProducer>("cpuElevationProducer", "Elevations in main memory.");
     registry.planned<TileProducer>("orthoCpuProducer", "Colours from a file.");
     registry.planned<TileProducer>("orthoGpuProducer", "Colours on the GPU.");
     registry.planned<TileProducer>("orthoProducer", "Colours for drawing.");

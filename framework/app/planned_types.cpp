@@ -10,11 +10,9 @@ namespace terrane {
 
 namespace {
 
-// Ork reference 2.8, 2.17; terrain reference 6.
+// Terrain reference 6.
 void declarePlannedDrawing(Registry& registry) {
-    registry.planned<>("font", "Letters, as a texture.");
-    registry.planned<SceneTask>("showInfo", "Writes frame rate and other facts on the picture.");
-    registry.planned<SceneTask>("showLog", "Writes the newest messages on the picture.");
+    registry.planned<SceneTask>("showTexture", "Draws textures on the picture, to look at them.");
     registry.planned<SceneTask>("drawTweakBar", "Draws the panels.");
     registry.planned<SceneTask>("drawTerrainBox", "Draws the bounding boxes of quads.");
 }

@@ -261,6 +261,15 @@ std::optional<glm::dvec3> Player::groundAt(double x, double y) {
     return point && isNearTerrain(*point, terrains_) ? point : std::nullopt;
 }
 
+std::optional<TerrainPlace> Player::placeAt(double x, double y) const {
+    return terrainPlace(terrains_, x, y);
+}
+
+std::optional<TileElevation> Player::elevationAt(const TerrainPlace& place) {
+    context_->makeCurrent();
+    return groundElevation(place, samplers_);
+}
+
 bool Player::isSoftware() const {
     return context_ && context_->isSoftware();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/ground_height.h"
 #include "app/metrics.h"
 #include "app/options.h"
 #include "app/player_element.h"
@@ -83,6 +84,11 @@ public:
     /// The point of the world that the last frame shows at a place, in pixels from the top left
     /// corner; none where it shows nothing near a terrain. Waits for OpenGL.
     std::optional<glm::dvec3> groundAt(double x, double y);
+
+    /// The place of a terrain that two numbers stand for; see terrainPlace(). As of the last frame.
+    std::optional<TerrainPlace> placeAt(double x, double y) const;
+    /// The elevation there by the finest tile that there is. Waits for OpenGL.
+    std::optional<TileElevation> elevationAt(const TerrainPlace& place);
 
     /// Where the camera is. Free to change between frames.
     TerrainViewController& controller() { return *controller_; }

@@ -4,6 +4,7 @@
 #include "app/planned_types.h"
 #include "app/player_element.h"
 #include "producer/declare.h"
+#include "render/font.h"
 #include "render/mesh_resource.h"
 #include "render/module_resource.h"
 #include "render/program_resource.h"
@@ -15,6 +16,8 @@
 #include "scene/set_state.h"
 #include "scene/set_target.h"
 #include "scene/set_transforms.h"
+#include "scene/show_info.h"
+#include "scene/show_log.h"
 #include "task/declare.h"
 #include "terrain/terrain_resource.h"
 #include "terrain/terrain_tasks.h"
@@ -36,6 +39,9 @@ void registerStandardTypes(Registry& registry) {
     declareSetState(registry);
     declareSetTarget(registry);
     declareSetTransforms(registry);
+    declareFont(registry);
+    declareShowInfo(registry);
+    declareShowLog(registry);
     declareProducers(registry);
     declareTerrainNode(registry);
     declareTileSampler(registry);

@@ -180,7 +180,8 @@ struct Rule {
 
 constexpr Rule kExpectations[] = {
     {"tiles", "expect tiles PRODUCER OP N", parseTiles},
-    {"height", "expect height X Y Z TOLERANCE", parseHeight},
+    {"height", "expect height X Y Z TOLERANCE (metres; on planets X Y are longitude, latitude)",
+     parseHeight},
     {"image", "expect image FILE [PIXELS%]", parseImage},
     {"diagnostic", "expect diagnostic CODE FILE:LINE:COL", parseDiagnostic},
     {"metric", "expect metric /POINTER OP N (counts only, never times)", parseMetric},

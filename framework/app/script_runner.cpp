@@ -6,6 +6,7 @@
 #include "core/image.h"
 #include "core/text.h"
 
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -136,8 +137,15 @@ std::string ScriptRunner::run(const ExpectTilesCommand& command) {
     return "'" + command.producer + "' made " + std::to_string(tiles) + " tiles";
 }
 
-std::string ScriptRunner::run(const ExpectHeightCommand&) {
-    return "'expect height' is not built yet";
+std::string ScriptRunner::run(const ExpectHeightCommand& command) {
+    if (player_.frames() == 0) return "no frame has been drawn yet";
+    const auto place = player_.placeAt(command.x, command.y);
+    if (!place) return "there is no terrain at this place";
+    const auto found = player_.elevationAt(*place);
+    if (!found) return "there is no tile with elevations at this place";
+    if (std::abs(found->elevation - command.z) <= command.tolerance) return {};
+    return "the elevation is " + number(found->elevation) + ", of a tile of level " +
+           std::to_string(found->level);
 }
 
 std::string ScriptRunner::run(const ExpectImageCommand& command) {

@@ -130,8 +130,15 @@ TileSlot* TileCache::takeSlot() {
         releaseFinished();
         sweepAt_ = std::max<std::size_t>(64, 2 * holders_.size());
     }
-    if (TileSlot* slot = storage_->newSlot()) return slot;
-    if (TileSlot* slot = evict()) return slot;
+    TileSlot* slot = storage_->newSlot();
+    if (!slot) slot = evict();
+    if (!slot && vainSearches_ < kMostVainSearches) slot = searchSlot();
+    vainSearches_ = slot ? 0 : vainSearches_ + 1;
+    return slot;
+}
+
+// A slot that others hold only because nobody has told them to let go.
+TileSlot* TileCache::searchSlot() {
     releaseFinished();
     if (TileSlot* slot = evict()) return slot;
     // Each pass may leave more tiles without users, whose own inputs the next one can take.
@@ -277,6 +284,7 @@ TileCache::Shortage TileCache::shortage() const {
 void TileCache::clearShortage() {
     refused_.clear();
     needed_ = 0;
+    vainSearches_ = 0;
     if (const auto culprit = culprit_.lock()) {
         culprit_.reset();
         culprit->clearShortage();

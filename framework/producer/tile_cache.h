@@ -131,6 +131,7 @@ private:
     Tile* addTile(TileProducer& producer, const TileKey& key);
     void eraseTile(Tile& tile);
     TileSlot* takeSlot();
+    TileSlot* searchSlot();
     TileSlot* evict();
     void remember(const TileKey& key, const std::shared_ptr<CreateTile>& task);
     Tile* refuse(const TileKey& key);
@@ -167,6 +168,10 @@ private:
     Statistics counts_;
     std::unordered_set<TileKey, TileKeyHash> refused_; ///< since clearShortage()
     int needed_ = 0;
+    /// How often in a row no slot was found, since clearShortage(). After so many times one is no
+    /// longer searched for everywhere: a view may ask for a hundred times what there is.
+    int vainSearches_ = 0;
+    static constexpr int kMostVainSearches = 64;
     std::weak_ptr<TileCache> culprit_; ///< the other cache that was full
 };
 

@@ -35,7 +35,7 @@ unsigned attachmentName(std::size_t point) {
 
 bool hasLayers(TextureTarget target) {
     return target != TextureTarget::texture1D && target != TextureTarget::texture2D &&
-           target != TextureTarget::rectangle;
+           target != TextureTarget::rectangle && target != TextureTarget::multisample2D;
 }
 
 const char* statusText(unsigned status) {
@@ -48,6 +48,8 @@ const char* statusText(unsigned status) {
         return "a draw buffer has no attachment";
     case GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER:
         return "the read buffer has no attachment";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+        return "the attachments differ in their samples";
     case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
         return "some attachments have layers, some not";
     case GL_FRAMEBUFFER_UNSUPPORTED:
@@ -119,6 +121,9 @@ std::string Framebuffer::problem(AttachmentPoint point, const Attachment& attach
                std::to_string(layers);
     }
     const std::string name(format.name);
+    if (!texture.allocated()) return "there was no memory for the texture";
+    if (texture.description().target == TextureTarget::buffer)
+        return "a buffer texture can't be drawn into";
     if (format.compressed) return "a compressed texture (" + name + ") can't be drawn into";
     const bool fits = point == AttachmentPoint::depth ? format.hasDepth()
                       : point == AttachmentPoint::stencil
@@ -193,6 +198,13 @@ void Framebuffer::setReadBuffer(AttachmentPoint point) {
     if (buffersFixed_ || point == readBuffer_) return;
     readBuffer_ = point;
     context_->gl().NamedFramebufferReadBuffer(name_, colourBuffer(point));
+}
+
+void Framebuffer::setSizeWithoutAttachments(int width, int height) {
+    const auto& gl = context_->gl();
+    gl.NamedFramebufferParameteri(name_, GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
+    gl.NamedFramebufferParameteri(name_, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
+    state.viewport = {0, 0, width, height};
 }
 
 bool Framebuffer::isComplete(Diagnostics& diagnostics, const Place& place) const {

@@ -89,6 +89,8 @@ public:
     }
     /// Which colours readPixels, copyTo and blit read. Depth needs no choice.
     void setReadBuffer(AttachmentPoint point);
+    /// What drawing covers while nothing is attached; a fresh framebuffer can't be drawn into then.
+    void setSizeWithoutAttachments(int width, int height);
     /// From now on choices of draw and read buffers have no effect, as on a screen.
     void fixBuffers() { buffersFixed_ = true; }
 

@@ -6,6 +6,7 @@
 #include "resource/registry.h"
 
 #include <array>
+#include <utility>
 
 namespace terrane {
 
@@ -31,32 +32,57 @@ struct SamplerElement : ElementDescription {
 struct SubroutineElement : ElementDescription {
     Attr<std::string> uniform;
     Attr<std::string> subroutine;
-    Attr<std::string> stage;
+    Attr<ShaderStage> stage = ShaderStage::fragment;
 };
+
+// Spelt as archives of the original do, and correctly.
+const Words<ShaderStage> kStageWords{{"VERTEX", ShaderStage::vertex},
+                                     {"TESSELATION_CONTROL", ShaderStage::tessControl},
+                                     {"TESSELATION_EVALUATION", ShaderStage::tessEvaluation},
+                                     {"GEOMETRY", ShaderStage::geometry},
+                                     {"FRAGMENT", ShaderStage::fragment},
+                                     {"TESSELLATION_CONTROL", ShaderStage::tessControl},
+                                     {"TESSELLATION_EVALUATION", ShaderStage::tessEvaluation}};
 
 bool isSize(char c, char least) {
     return c >= least && c <= '4';
 }
 
-// `uniform3f` and so on; null for a tag that is none of them.
-const UniformType* vectorType(std::string_view tag) {
+// A tag's type, and what of the tag stands behind it.
+struct TagType {
+    const UniformType* type = nullptr;
+    std::string_view rest;
+};
+
+// `uniform3f` and so on; null for a tag that is none of them. The original did not look at what
+// comes after the letter.
+TagType vectorTag(std::string_view tag) {
     tag.remove_prefix(std::string_view("uniform").size());
-    if (tag.empty() || !isSize(tag[0], '1')) return nullptr;
+    if (tag.empty() || !isSize(tag[0], '1')) return {};
     const int rows = tag[0] - '0';
-    const std::string_view suffix = tag.substr(1);
-    UniformKind kind = UniformKind::none;
-    if (suffix == "f") kind = UniformKind::float32;
-    if (suffix == "d") kind = UniformKind::float64;
-    if (suffix == "i") kind = UniformKind::int32;
-    if (suffix == "b") kind = UniformKind::boolean;
-    if (suffix == "vi" || suffix == "ui") kind = UniformKind::uint32;
-    return findUniformType(kind, 1, rows);
+    constexpr std::array<std::pair<std::string_view, UniformKind>, 6> suffixes{
+        {{"f", UniformKind::float32},
+         {"d", UniformKind::float64},
+         {"i", UniformKind::int32},
+         {"b", UniformKind::boolean},
+         {"vi", UniformKind::uint32},
+         {"ui", UniformKind::uint32}}};
+    for (const auto& [suffix, kind] : suffixes) {
+        if (tag.substr(1).starts_with(suffix))
+            return {findUniformType(kind, 1, rows), tag.substr(1 + suffix.size())};
+    }
+    return {};
 }
 
-// `uniformMatrix3f`, `uniformMatrix2x4d`, also without the last letter, which means float.
-const UniformType* matrixType(std::string_view tag) {
+const UniformType* vectorType(std::string_view tag) {
+    return vectorTag(tag).type;
+}
+
+// `uniformMatrix3f`, `uniformMatrix2x4d`, also without the last letter, which means float, as any
+// other ending does.
+TagType matrixTag(std::string_view tag) {
     tag.remove_prefix(std::string_view("uniformMatrix").size());
-    if (tag.empty() || !isSize(tag[0], '2')) return nullptr;
+    if (tag.empty() || !isSize(tag[0], '2')) return {};
     const int columns = tag[0] - '0';
     int rows = columns;
     tag.remove_prefix(1);
@@ -64,8 +90,23 @@ const UniformType* matrixType(std::string_view tag) {
         rows = tag[1] - '0';
         tag.remove_prefix(2);
     }
-    if (!tag.empty() && tag != "f" && tag != "d") return nullptr;
-    return findUniformType(tag == "d" ? UniformKind::float64 : UniformKind::float32, columns, rows);
+    const bool letter = tag.starts_with('f') || tag.starts_with('d');
+    const UniformKind kind = tag.starts_with('d') ? UniformKind::float64 : UniformKind::float32;
+    return {findUniformType(kind, columns, rows), tag.substr(letter ? 1 : 0)};
+}
+
+const UniformType* matrixType(std::string_view tag) {
+    return matrixTag(tag).type;
+}
+
+void warnOfRest(const ElementDescription& d, const TagType& tag, Diagnostics& diagnostics) {
+    if (tag.rest.empty()) return;
+    const std::string plain = d.tag.substr(0, d.tag.size() - tag.rest.size());
+    diagnostics.report({.severity = Severity::warning,
+                        .code = "unknown-element",
+                        .place = d.place,
+                        .message = "<" + d.tag + "> counts as <" + plain + ">",
+                        .suggestion = plain});
 }
 
 void unknownTag(const ElementDescription& d, std::string expected, Diagnostics& diagnostics) {
@@ -80,6 +121,7 @@ void checkVector(const VectorElement& d, Diagnostics& diagnostics) {
                           "<uniform1f> to <uniform4f>, with 'd', 'i', 'b' or 'ui' for 'f', "
                           "<uniformMatrix...> or <uniformSampler>",
                           diagnostics);
+    warnOfRest(d, vectorTag(d.tag), diagnostics);
     constexpr std::array names{"x", "y", "z", "w"};
     for (int i = type->rows; i < 4; ++i) {
         if (!d.components()[i]->given) continue;
@@ -134,15 +176,13 @@ std::optional<UniformValue> matrixValue(const MatrixElement& d, const UniformTyp
 }
 
 void checkMatrix(const MatrixElement& d, Diagnostics& diagnostics) {
-    if (const UniformType* const type = matrixType(d.tag))
+    if (const UniformType* const type = matrixType(d.tag)) {
+        warnOfRest(d, matrixTag(d.tag), diagnostics);
         matrixValue(d, *type, &diagnostics);
-    else
+    } else {
         unknownTag(d, "<uniformMatrix2f> to <uniformMatrix4d>, or <uniformMatrix2x3f> and so on",
                    diagnostics);
-}
-
-void checkSubroutine(const SubroutineElement& d, Diagnostics& diagnostics) {
-    diagnostics.warning("not-built-yet", d.place, "<" + d.tag + "> has no effect yet");
+    }
 }
 
 std::optional<UniformValue> vectorValue(const VectorElement& d) {
@@ -193,10 +233,8 @@ std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry
             .required()
             .attribute("subroutine", &SubroutineElement::subroutine, "the function")
             .required()
-            .attribute("stage", &SubroutineElement::stage,
-                       "VERTEX, TESSELATION_CONTROL, TESSELATION_EVALUATION, GEOMETRY or FRAGMENT")
+            .attribute("stage", &SubroutineElement::stage, "where the uniform is", kStageWords)
             .required()
-            .check(checkSubroutine)
             .declaration();
     const auto& vector =
         registry
@@ -207,12 +245,25 @@ std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry
             .attribute("name", &VectorElement::uniform, kNameSummary)
             .required()
             .attribute("x", &VectorElement::x, "first component")
+            .orInfinite()
             .attribute("y", &VectorElement::y, "second component")
+            .orInfinite()
             .attribute("z", &VectorElement::z, "third component")
+            .orInfinite()
             .attribute("w", &VectorElement::w, "fourth component")
+            .orInfinite()
             .check(checkVector)
             .declaration();
     return {&matrix, &sampler, &subroutine, &vector};
+}
+
+std::optional<InitialSubroutine> initialSubroutine(const Child& child) {
+    const auto* const d = child.as<SubroutineElement>();
+    if (!d) return std::nullopt;
+    return InitialSubroutine{.uniform = *d->uniform,
+                             .function = *d->subroutine,
+                             .stage = d->stage,
+                             .place = d->subroutine.place};
 }
 
 std::optional<InitialUniform> initialUniform(const Child& child) {

@@ -15,6 +15,9 @@ class Registry;
 /// in the order in which tags are to be matched.
 std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry);
 
+/// The function that a valid <uniformSubroutine> chooses; nothing for any other child.
+std::optional<InitialSubroutine> initialSubroutine(const Child& child);
+
 /// The value that a valid child says, or nothing if it is not one of these, or has no effect.
 std::optional<InitialUniform> initialUniform(const Child& child);
 

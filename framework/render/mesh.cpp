@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/mesh.h"
 
+#include "render/transform_feedback.h"
+
 #include <glad/gl.h>
 
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 namespace terrane {
 
@@ -27,14 +30,33 @@ Mesh::Mesh(const GlContext& context, const MeshData& data)
                                             : 4)
     , boundsMin_(data.boundsMin)
     , boundsMax_(data.boundsMax)
-    , vertices_(context, data.vertices)
+    , vertices_(std::make_shared<Buffer>(context, data.vertices))
     , array_(context) {
     assert(data.vertices.size() == vertexCount_ * stride_ && "Mesh: vertices of another size");
-    array_.setAttributes(0, vertices_, data.attributes);
+    array_.setAttributes(0, *vertices_, data.attributes);
     if (indexCount_ > 0) {
         indices_.emplace(context, packIndices(data.indices));
         array_.setIndices(*indices_);
     }
+}
+
+Mesh::Mesh(const GlContext& context, PrimitiveMode mode, std::shared_ptr<Buffer> vertices,
+           std::span<const VertexAttribute> attributes)
+    : context_(&context)
+    , mode_(mode)
+    , stride_(0)
+    , vertexCount_(0)
+    , indexCount_(0)
+    , indexSize_(4)
+    , boundsMin_(0)
+    , boundsMax_(0)
+    , vertices_(std::move(vertices))
+    , array_(context) {
+    for (const VertexAttribute& attribute : attributes)
+        stride_ += attribute.size();
+    assert(stride_ > 0 && "Mesh: vertices without attributes");
+    vertexCount_ = vertices_->size() / stride_;
+    array_.setAttributes(0, *vertices_, attributes);
 }
 
 std::vector<std::byte> Mesh::packIndices(std::span<const std::uint32_t> indices) const {
@@ -124,13 +146,19 @@ void Mesh::drawIndirect(const Buffer& commands, int count, std::size_t offset) c
     });
 }
 
+void Mesh::drawFeedback(const TransformFeedback& feedback, int instances) const {
+    drawWith([&](const GladGLContext& gl) {
+        gl.DrawTransformFeedbackInstanced(unsigned(mode_), feedback.name(), instances);
+    });
+}
+
 void Mesh::setInstanceAttributes(const Buffer& buffer, std::span<const VertexAttribute> attributes,
                                  unsigned divisor) {
     array_.setAttributes(1, buffer, attributes, divisor);
 }
 
 void Mesh::writeVertices(std::size_t first, std::span<const std::byte> bytes) {
-    vertices_.write(first * stride_, bytes);
+    vertices_->write(first * stride_, bytes);
 }
 
 void Mesh::writeIndices(std::size_t first, std::span<const std::uint32_t> indices) {

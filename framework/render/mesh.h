@@ -6,10 +6,13 @@
 #include "render/vertex_array.h"
 #include "resource/resource.h"
 
+#include <memory>
 #include <optional>
 #include <span>
 
 namespace terrane {
+
+class TransformFeedback;
 
 /// A mesh on the GPU. Drawing takes the program, framebuffer and state that are current. Move-only;
 /// GL thread only, with its context current.
@@ -29,6 +32,10 @@ public:
 
     /// 8-bit indices below 256 vertices, 16-bit below 65536, else 32-bit.
     Mesh(const GlContext& context, const MeshData& data);
+    /// Vertices that something else writes, such as a TransformFeedback: as many as fit into the
+    /// buffer, without indices and bounds.
+    Mesh(const GlContext& context, PrimitiveMode mode, std::shared_ptr<Buffer> vertices,
+         std::span<const VertexAttribute> attributes);
     Mesh(Mesh&& other) = default;
     Mesh& operator=(Mesh&& other) = default;
 
@@ -46,6 +53,9 @@ public:
     /// Commands as OpenGL lays them out (DrawElementsIndirectCommand, or DrawArrays... without
     /// indices), tightly packed.
     void drawIndirect(const Buffer& commands, int count, std::size_t offset = 0) const;
+
+    /// As many vertices as a feedback captured last, without asking how many that are.
+    void drawFeedback(const TransformFeedback& feedback, int instances = 1) const;
 
     /// More attributes, one element an instance, from a buffer that the caller keeps.
     void setInstanceAttributes(const Buffer& buffer, std::span<const VertexAttribute> attributes,
@@ -75,7 +85,7 @@ private:
     glm::dvec3 boundsMin_, boundsMax_;
     std::optional<std::uint32_t> restartIndex_;
     int patchSize_ = 3;
-    Buffer vertices_;
+    std::shared_ptr<Buffer> vertices_;
     std::optional<Buffer> indices_;
     VertexArray array_;
 };

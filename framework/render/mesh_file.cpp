@@ -49,6 +49,7 @@ constexpr auto kTypes = std::to_array<Word<VertexType>>({
 constexpr auto kBooleans = std::to_array<Word<bool>>({{"true", true}, {"false", false}});
 
 constexpr int kMaxAttributes = 16; // guaranteed by OpenGL 4.5
+constexpr std::int64_t kMostBareVertices = 1 << 20;
 
 bool isSpace(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
@@ -185,6 +186,12 @@ private:
         std::uint64_t components = 0;
         for (const auto& attribute : mesh.attributes)
             components += unsigned(attribute.components);
+        // Nothing in the file bounds what has no attributes.
+        if (components == 0 && count > kMostBareVertices) {
+            return fail("number " + inQuotes(token_) + " is out of range",
+                        "at most " + std::to_string(kMostBareVertices) +
+                            " vertices without attributes");
+        }
         if (!roomFor(std::uint64_t(count) * components, "vertices")) return false;
         mesh.vertexCount = std::size_t(count);
         mesh.vertices.resize(mesh.vertexCount * mesh.stride());

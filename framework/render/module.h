@@ -29,6 +29,14 @@ struct InitialUniform {
     Ref<Texture> texture; ///< for samplers, when it names a resource
 };
 
+/// A function that a module chooses for a subroutine uniform of the programs it is linked into.
+struct InitialSubroutine {
+    std::string uniform; ///< `u`, `u[2]`
+    std::string function;
+    ShaderStage stage = ShaderStage::fragment;
+    Place place; ///< of the function's name
+};
+
 enum class FeedbackMode { separate, interleaved };
 
 /// Vertex outputs that a program captures.
@@ -51,6 +59,7 @@ struct ModuleSource {
     std::array<std::shared_ptr<const SourceFile>, kShaderStageCount> stageFiles;
     GlslFiles includes;
     std::vector<InitialUniform> uniforms;
+    std::vector<InitialSubroutine> subroutines = {};
     std::optional<Feedback> feedback;
 };
 
@@ -77,6 +86,7 @@ public:
     /// The text that was compiled, or null when there is no such stage.
     const GlslText* text(ShaderStage stage) const;
     const std::vector<InitialUniform>& uniforms() const { return source_.uniforms; }
+    const std::vector<InitialSubroutine>& subroutines() const { return source_.subroutines; }
     const std::optional<Feedback>& feedback() const { return source_.feedback; }
     /// All files that were read, includes too, each once: changes of these call for a new module.
     const std::vector<std::shared_ptr<const SourceFile>>& files() const { return files_; }

@@ -92,10 +92,13 @@ std::shared_ptr<Module> build(const ModuleElement& d, BuildContext& context) {
                         .stageFiles = {},
                         .includes = includesOf(context),
                         .uniforms = {},
+                        .subroutines = {},
                         .feedback = {}};
     if (!readFiles(d, context, source)) return nullptr;
     for (const Child& child : d.children) {
         if (auto initial = initialUniform(child)) source.uniforms.push_back(std::move(*initial));
+        if (auto initial = initialSubroutine(child))
+            source.subroutines.push_back(std::move(*initial));
     }
     if (d.feedback.given)
         source.feedback = Feedback{.mode = *d.feedback == "interleaved" ? FeedbackMode::interleaved

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/program.h"
 
+#include "core/text.h"
 #include "render/glsl_log.h"
 #include "render/state_tracker.h"
 #include "render/uniform_transfer.h"
@@ -34,6 +35,7 @@ Program::~Program() {
 std::shared_ptr<Program> Program::start(ProgramBindings& bindings, ProgramSource source,
                                         Diagnostics& diagnostics) {
     std::shared_ptr<Program> program(new Program(bindings, std::move(source)));
+    if (program->loadBinary(diagnostics)) return program;
     if (!program->attach(diagnostics) || !program->collectFeedback(diagnostics)) return nullptr;
     bindings.context.gl().LinkProgram(program->name_);
     return program;
@@ -43,6 +45,48 @@ std::shared_ptr<Program> Program::link(ProgramBindings& bindings, ProgramSource 
                                        Diagnostics& diagnostics) {
     auto program = start(bindings, std::move(source), diagnostics);
     return program && program->finish(diagnostics) ? program : nullptr;
+}
+
+bool Program::loadBinary(Diagnostics& diagnostics) {
+    if (!source_.binary) return false;
+    const ProgramBinary& binary = *source_.binary;
+    const auto& gl = bindings_.context.gl();
+    GLint count = 0;
+    gl.GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
+    std::vector<GLint> formats(static_cast<std::size_t>(std::max(count, 0)));
+    if (count > 0) gl.GetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
+    GLint good = 0;
+    // Another format would be an error of OpenGL's.
+    if (std::find(formats.begin(), formats.end(), GLint(binary.format)) != formats.end()) {
+        gl.ProgramBinary(name_, binary.format, binary.bytes.data(), GLsizei(binary.bytes.size()));
+        gl.GetProgramiv(name_, GL_LINK_STATUS, &good);
+    }
+    fromBinary_ = good != 0;
+    if (!fromBinary_) {
+        diagnostics.warning("program-binary", source_.place,
+                            "the driver does not take the binary of program '" + source_.name +
+                                "'; its modules are linked instead",
+                            "a binary that this driver made, or none");
+    }
+    return fromBinary_;
+}
+
+std::optional<ProgramBinary> Program::binary() const {
+    const auto& gl = bindings_.context.gl();
+    GLint length = 0;
+    gl.GetProgramiv(name_, GL_PROGRAM_BINARY_LENGTH, &length);
+    if (length <= 0) return std::nullopt;
+    ProgramBinary result{.format = 0, .bytes = std::string(std::size_t(length), '\0')};
+    GLsizei written = 0;
+    gl.GetProgramBinary(name_, length, &written, &result.format, result.bytes.data());
+    if (written <= 0) return std::nullopt;
+    result.bytes.resize(std::size_t(written));
+    return result;
+}
+
+bool Program::hasStage(ShaderStage stage) const {
+    return std::any_of(source_.modules.begin(), source_.modules.end(),
+                       [&](const auto& module) { return module->hasStage(stage); });
 }
 
 bool Program::attach(Diagnostics& diagnostics) {
@@ -61,7 +105,8 @@ bool Program::attach(Diagnostics& diagnostics) {
                           "program '" + source_.name + "' has no stage at all");
         return false;
     }
-    if (!vertex) gl.AttachShader(name_, bindings_.passThroughVertex().name());
+    if (source_.separable) gl.ProgramParameteri(name_, GL_PROGRAM_SEPARABLE, GL_TRUE);
+    if (!vertex && !source_.separable) gl.AttachShader(name_, bindings_.passThroughVertex().name());
     return true;
 }
 
@@ -112,6 +157,7 @@ bool Program::readStatus(Diagnostics& diagnostics) {
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
     gl.GetProgramInfoLog(name_, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
+    if (fromBinary_) return good != 0;
     reportLinkLog(log, good == 0, source_.place, source_.name, diagnostics);
     for (const auto& module : source_.modules) {
         for (const ShaderObject& shader : module->shaders())
@@ -135,13 +181,30 @@ void Program::readInterface() {
         if (uniform.type->isSampler()) samplers_.push_back(index);
         slots_[index].uniform = std::move(uniform);
     }
+    subroutines_ = SubroutineTable(bindings_.context, name_);
 }
 
 void Program::applyInitialValues(Diagnostics& diagnostics) {
     for (const auto& module : source_.modules) {
         for (const InitialUniform& initial : module->uniforms())
             applyInitialValue(initial, diagnostics);
+        for (const InitialSubroutine& initial : module->subroutines())
+            applyInitialSubroutine(initial, diagnostics);
     }
+}
+
+void Program::applyInitialSubroutine(const InitialSubroutine& initial, Diagnostics& diagnostics) {
+    const auto result =
+        subroutines_.chooseInitially(initial.stage, initial.uniform, initial.function);
+    if (result != SubroutineTable::Result::noFunction) return;
+    const auto names = subroutines_.functions(initial.stage, initial.uniform);
+    diagnostics.report({.severity = Severity::warning,
+                        .code = "unmatched-uniform",
+                        .place = initial.place,
+                        .message = inQuotes(initial.function) + " is no function for '" +
+                                   initial.uniform + "' of program '" + source_.name + "'",
+                        .expected = listOfNames(names),
+                        .suggestion = nearestName(initial.function, names)});
 }
 
 void Program::applyInitialValue(const InitialUniform& initial, Diagnostics& diagnostics) {
@@ -221,23 +284,26 @@ std::vector<std::string> Program::uniformNames() const {
 }
 
 void Program::inheritValues(const Program& previous) {
+    subroutines_.inherit(previous.subroutines_);
     for (const Slot& old : previous.slots_) {
         const bool owned = old.texture && old.texture.use_count() > 0;
         const UniformValue value = old.active() ? previous.read(old) : old.value;
         const bool set = old.active() && old.uniform.block >= 0 ? true : old.known;
         const bool edited = set && !(value == old.initial);
-        if (!owned && !edited) continue;
+        if (!owned && !edited && !old.sampler) continue;
         const int found = findSlot(old.name);
         if (found < 0) {
             Slot& remembered = resolved(find(old.name).slot_);
             remembered.value = value;
             remembered.known = edited;
             remembered.texture = old.texture;
+            remembered.sampler = old.sampler;
             continue;
         }
         Slot& slot = slots_[found];
         const bool shared = slot.uniform.block >= 0 && !blocks_[slot.uniform.block].created;
         if (owned && slot.uniform.type->isSampler()) setTexture(slot, old.texture);
+        slot.sampler = old.sampler;
         if (edited && !shared && value.type() == *slot.uniform.type) setValue(slot, value);
     }
 }
@@ -247,6 +313,8 @@ void Program::replaceBy(Program& fresh) {
     std::swap(name_, fresh.name_);
     std::swap(source_, fresh.source_);
     std::swap(blocks_, fresh.blocks_);
+    std::swap(subroutines_, fresh.subroutines_);
+    std::swap(fromBinary_, fresh.fromBinary_);
     std::swap(capturesFeedback_, fresh.capturesFeedback_);
     for (const auto& module : source_.modules)
         std::replace(module->programs_.begin(), module->programs_.end(), &fresh, this);

@@ -5,6 +5,8 @@
 #include "render/module.h"
 #include "render/program_bindings.h"
 #include "render/program_interface.h"
+#include "render/program_subroutines.h"
+#include "render/sampler.h"
 #include "render/texture.h"
 #include "render/uniform_type.h"
 #include "resource/resource.h"
@@ -52,6 +54,9 @@ public:
     /// Sets a sampler to a texture that lives at least as long as it is used with this program.
     void set(const Texture& texture) const;
 
+    /// Reads a sampler's texture another way than its own; null for its own way again.
+    void setSampler(std::shared_ptr<const Sampler> sampler) const;
+
     /// The current value; of kind `none` for samplers and uniforms that are not active.
     UniformValue value() const;
     /// Of samplers; null without one.
@@ -91,10 +96,20 @@ public:
     void set(const Texture& texture) const { UniformHandle::set(texture); }
 };
 
+/// A linked program as a driver keeps it for itself; no other driver takes it.
+struct ProgramBinary {
+    unsigned format = 0;
+    std::string bytes;
+};
+
 struct ProgramSource {
     std::string name; ///< "globals;terrain;", for messages
     Place place;
     std::vector<std::shared_ptr<Module>> modules; ///< linked in this order
+    /// Taken instead of linking; if the driver does not, the modules are linked, with a warning
+    /// ("program-binary").
+    std::optional<ProgramBinary> binary = {};
+    bool separable = false; ///< for a ProgramPipeline
 };
 
 /// Modules linked into something to draw with, and the values of its uniforms. Without a vertex
@@ -125,7 +140,10 @@ public:
 
     const std::string& name() const { return source_.name; }
     const std::vector<std::shared_ptr<Module>>& modules() const { return source_.modules; }
+    bool hasStage(ShaderStage stage) const;
     bool capturesFeedback() const { return capturesFeedback_; }
+    /// For ProgramSource::binary; nothing when the driver has no such thing.
+    std::optional<ProgramBinary> binary() const;
 
     /// A handle by name: `u`, `u[2]`, `s.m`, `u[1].m`; `u` of an array is its first element.
     /// Members of uniform blocks have their plain name, or `Block.member` if the block has an
@@ -137,6 +155,8 @@ public:
     Uniform<T> uniform(std::string_view name) {
         return Uniform<T>(find(name));
     }
+    /// The subroutine uniforms. Their values survive replaceBy() like those of other uniforms.
+    SubroutineTable& subroutines() { return subroutines_; }
     /// Names of all active uniforms, in the order of OpenGL's list.
     std::vector<std::string> uniformNames() const;
 
@@ -155,6 +175,7 @@ public:
 
 private:
     friend class UniformHandle;
+    friend class ProgramPipeline;
 
     struct Slot {
         std::string name;
@@ -165,6 +186,7 @@ private:
         UniformValue initial;  // from a module; of kind none without one
         std::shared_ptr<const Texture> texture;
         const ResourceEntry* textureEntry = nullptr; // followed across reloads
+        std::shared_ptr<const Sampler> sampler;
         unsigned unit = 0;
         int sentUnit = -1;
         bool reported = false; // a wrong type
@@ -182,12 +204,14 @@ private:
     };
 
     Program(ProgramBindings& bindings, ProgramSource source);
+    bool loadBinary(Diagnostics& diagnostics);
     bool attach(Diagnostics& diagnostics);
     bool collectFeedback(Diagnostics& diagnostics);
     bool readStatus(Diagnostics& diagnostics);
     void readInterface();
     void applyInitialValues(Diagnostics& diagnostics);
     void applyInitialValue(const InitialUniform& initial, Diagnostics& diagnostics);
+    void applyInitialSubroutine(const InitialSubroutine& initial, Diagnostics& diagnostics);
 
     int findSlot(std::string_view name) const;
     int addSlot(std::string name);
@@ -202,6 +226,7 @@ private:
     static const Texture* textureOf(const Slot& slot);
     void reportMismatch(Slot& slot, std::string_view given);
 
+    void bindValues();
     void bindTextures();
     void bindBlocks();
 
@@ -209,12 +234,14 @@ private:
     ProgramSource source_;
     unsigned name_ = 0;
     bool capturesFeedback_ = false;
+    bool fromBinary_ = false;
     bool finished_ = false;
     bool good_ = false;
     std::vector<Slot> slots_;
     std::map<std::string, int, std::less<>> slotsByName_;
     std::vector<Block> blocks_;
     std::vector<int> samplers_; // slots
+    SubroutineTable subroutines_;
 };
 
 } // namespace terrane

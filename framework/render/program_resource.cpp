@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/program_resource.h"
 
+#include "core/files.h"
+#include "core/text.h"
 #include "render/program.h"
 #include "resource/build_context.h"
 #include "resource/manager.h"
 #include "resource/registry.h"
+
+#include <cstring>
 
 namespace terrane {
 
@@ -16,6 +20,23 @@ struct ModuleReference : ElementDescription {
 
 struct ProgramElement : ElementDescription {};
 
+// `a;b;.bin` in the search folders: the driver's format, and what it made (ork reference 1.4).
+std::optional<ProgramBinary> findBinary(const ProgramElement& d, BuildContext& context) {
+    const std::string file = (d.name.given ? *d.name : context.name()) + ".bin";
+    const auto found = context.manager().library().searchPath().find(file);
+    if (!found) return std::nullopt;
+    const auto bytes = readFile(found->path);
+    std::uint32_t format = 0;
+    if (!bytes || bytes->size() <= sizeof format) {
+        context.diagnostics().warning("program-binary", d.place,
+                                      inQuotes(file) + " can't be read, or is too short");
+        return std::nullopt;
+    }
+    context.entry().files.push_back(found->path);
+    std::memcpy(&format, bytes->data(), sizeof format);
+    return ProgramBinary{.format = format, .bytes = bytes->substr(sizeof format)};
+}
+
 std::shared_ptr<Program> build(const ProgramElement& d, BuildContext& context) {
     ProgramSource source{.name = context.name(), .place = d.place, .modules = {}};
     for (const Child& child : d.children) {
@@ -26,6 +47,7 @@ std::shared_ptr<Program> build(const ProgramElement& d, BuildContext& context) {
         source.modules.push_back(
             std::static_pointer_cast<Module>(reference->module.entry()->instance));
     }
+    source.binary = findBinary(d, context);
     auto program =
         Program::link(context.service<ProgramBindings>(), std::move(source), context.diagnostics());
     // Values that were set live survive a reload.

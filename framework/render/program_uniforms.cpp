@@ -13,8 +13,7 @@ namespace terrane {
 
 namespace {
 
-// The target that a sampler type reads, by its name: "isampler2DArray" reads 2D arrays. Null for
-// those that no Texture can be (multisample and buffer textures).
+// The target that a sampler type reads, by its name: "isampler2DArray" reads 2D arrays.
 std::optional<TextureTarget> targetOf(const UniformType& sampler) {
     std::string_view name = sampler.name.substr(sampler.name.find("sampler") + 7);
     constexpr std::string_view shadow = "Shadow";
@@ -27,6 +26,9 @@ std::optional<TextureTarget> targetOf(const UniformType& sampler) {
     if (name == "Cube") return TextureTarget::cube;
     if (name == "CubeArray") return TextureTarget::cubeArray;
     if (name == "2DRect") return TextureTarget::rectangle;
+    if (name == "2DMS") return TextureTarget::multisample2D;
+    if (name == "2DMSArray") return TextureTarget::multisample2DArray;
+    if (name == "Buffer") return TextureTarget::buffer;
     return std::nullopt;
 }
 
@@ -48,14 +50,20 @@ std::string_view targetName(TextureTarget target) {
         return "cube array texture";
     case TextureTarget::rectangle:
         return "rectangle texture";
+    case TextureTarget::multisample2D:
+        return "multisample texture";
+    case TextureTarget::multisample2DArray:
+        return "multisample array texture";
+    case TextureTarget::buffer:
+        return "buffer texture";
     }
     return "texture";
 }
 
 // Two samplers of different types must not share a unit, even for one texture or for none.
-std::uint64_t unitKey(const Texture* texture, const UniformType& sampler) {
+UnitKey unitKey(const Texture* texture, const UniformType& type, const Sampler* sampler) {
     const std::uint64_t serial = texture ? texture->serial() : 0;
-    return serial << 16 | (sampler.code & 0xFFFF);
+    return {serial << 16 | (type.code & 0xFFFF), sampler ? sampler->serial() : 0};
 }
 
 } // namespace
@@ -107,6 +115,10 @@ void UniformHandle::set(const Texture& texture) const {
     // Shares nothing and so owns nothing.
     program_->setTexture(program_->resolved(slot_),
                          std::shared_ptr<const Texture>(std::shared_ptr<void>(), &texture));
+}
+
+void UniformHandle::setSampler(std::shared_ptr<const Sampler> sampler) const {
+    if (active()) program_->resolved(slot_).sampler = std::move(sampler);
 }
 
 UniformValue UniformHandle::value() const {
@@ -175,13 +187,19 @@ void Program::reportMismatch(Slot& slot, std::string_view given) {
 
 void Program::use() {
     bindings_.context.state().useProgram(name_);
+    bindings_.textureUnits.beginDraw();
+    bindings_.uniformBindings.beginDraw();
+    bindValues();
+}
+
+void Program::bindValues() {
+    if (!subroutines_.empty()) subroutines_.send(bindings_.context);
     bindTextures();
     bindBlocks();
 }
 
 void Program::bindTextures() {
     StateTracker& state = bindings_.context.state();
-    bindings_.textureUnits.beginDraw();
     for (const int index : samplers_) {
         Slot& slot = slots_[index];
         const Texture* const texture = textureOf(slot);
@@ -189,8 +207,10 @@ void Program::bindTextures() {
             bindings_.context.diagnostics().warning("sampler-unset", source_.place,
                                                     "sampler '" + slot.name + "' of program '" +
                                                         source_.name + "' has no texture");
-        slot.unit = bindings_.textureUnits.unitFor(unitKey(texture, *slot.uniform.type), slot.unit);
+        const UnitKey key = unitKey(texture, *slot.uniform.type, slot.sampler.get());
+        slot.unit = bindings_.textureUnits.unitFor(key, slot.unit);
         state.bindTexture(slot.unit, texture ? texture->name() : 0);
+        state.bindSampler(slot.unit, slot.sampler ? slot.sampler->name() : 0);
         if (slot.sentUnit == static_cast<int>(slot.unit)) continue;
         slot.sentUnit = static_cast<int>(slot.unit);
         bindings_.context.gl().ProgramUniform1i(name_, slot.uniform.location, slot.sentUnit);
@@ -199,7 +219,6 @@ void Program::bindTextures() {
 
 void Program::bindBlocks() {
     StateTracker& state = bindings_.context.state();
-    bindings_.uniformBindings.beginDraw();
     for (Block& block : blocks_) {
         block.storage->flush();
         block.binding = bindings_.uniformBindings.unitFor(block.storage->serial(), block.binding);

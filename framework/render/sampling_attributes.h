@@ -72,8 +72,10 @@ void declareFilters(Builder& builder) {
         .attribute("mag", of(&S::mag), "filter where pixels are larger on the screen",
                    magFilterWords())
         .attribute("minLod", of(&S::minLod), "lower limit of the level of detail")
+        .orInfinite()
         .alias("minLOD")
         .attribute("maxLod", of(&S::maxLod), "upper limit of the level of detail")
+        .orInfinite()
         .alias("maxLOD")
         .attribute("minLevel", of(&S::minLevel), "first mipmap level in use")
         .atLeast(0)

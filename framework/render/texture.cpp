@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/texture.h"
 
+#include "render/sampling_transfer.h"
 #include "render/state_tracker.h"
 
 #include <glad/gl.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 namespace terrane {
@@ -40,10 +40,12 @@ int integerParameter(const GlContext& context, unsigned parameter) {
 int dimensions(T target) {
     switch (target) {
     case T::texture1D:
+    case T::buffer:
         return 1;
     case T::texture1DArray:
     case T::texture2D:
     case T::rectangle:
+    case T::multisample2D:
         return 2;
     default:
         return 3;
@@ -61,6 +63,63 @@ TextureRegion toGl(T target, TextureRegion region) {
     return region;
 }
 
+bool isMultisample(T target) {
+    return target == T::multisample2D || target == T::multisample2DArray;
+}
+
+struct TextureCalls {
+    const GladGLContext& gl;
+    unsigned name;
+
+    void integer(unsigned parameter, int value) const {
+        gl.TextureParameteri(name, parameter, value);
+    }
+    void real(unsigned parameter, float value) const {
+        gl.TextureParameterf(name, parameter, value);
+    }
+    void reals(unsigned parameter, const float* values) const {
+        gl.TextureParameterfv(name, parameter, values);
+    }
+    void integers(unsigned parameter, const int* values) const {
+        gl.TextureParameterIiv(name, parameter, values);
+    }
+    void unsignedIntegers(unsigned parameter, const unsigned* values) const {
+        gl.TextureParameterIuiv(name, parameter, values);
+    }
+};
+
+/// Silences debug output, and tells afterwards what went wrong: when memory runs out, whoever asked
+/// for it says so, with a place.
+class QuietAllocation {
+public:
+    explicit QuietAllocation(const GlContext& context)
+        : context_(context)
+        , loud_(context.gl().IsEnabled(GL_DEBUG_OUTPUT) == GL_TRUE) {
+        if (!loud_) return;
+        context_.gl().Disable(GL_DEBUG_OUTPUT);
+        while (context_.gl().GetError() != GL_NO_ERROR) {
+            // earlier ones, which have been told
+        }
+    }
+    QuietAllocation(const QuietAllocation&) = delete;
+    QuietAllocation& operator=(const QuietAllocation&) = delete;
+    ~QuietAllocation() {
+        if (!loud_) return;
+        for (GLenum error = context_.gl().GetError(); error != GL_NO_ERROR;
+             error = context_.gl().GetError()) {
+            if (error != GL_OUT_OF_MEMORY) {
+                context_.diagnostics().error(
+                    "gl-error", {}, "OpenGL error " + std::to_string(error) + " for a texture");
+            }
+        }
+        context_.gl().Enable(GL_DEBUG_OUTPUT);
+    }
+
+private:
+    const GlContext& context_;
+    bool loud_;
+};
+
 std::size_t pixelCount(const TextureRegion& region) {
     return std::size_t(region.width) * std::size_t(region.height) * std::size_t(region.depth);
 }
@@ -75,6 +134,7 @@ std::string Texture::problem(const GlContext& context, const TextureDescription&
                                : d.target == T::cube || d.target == T::cubeArray
                                    ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
                                : d.target == T::rectangle ? GL_MAX_RECTANGLE_TEXTURE_SIZE
+                               : d.target == T::buffer    ? GL_MAX_TEXTURE_BUFFER_SIZE
                                                           : GL_MAX_TEXTURE_SIZE;
     const int limit = integerParameter(context, limitName);
     if (std::max({d.width, d.height, d.depth}) > limit) {
@@ -95,7 +155,20 @@ std::string Texture::problem(const GlContext& context, const TextureDescription&
     if (d.target == T::texture3D && (format.compressed || format.hasDepth())) {
         return "3D textures can't be compressed nor hold depth";
     }
-    if (d.levels > (d.target == T::rectangle ? 1 : fullLevels(d))) {
+    if (isMultisample(d.target) && format.compressed) {
+        return "multisample textures can't be compressed";
+    }
+    const unsigned samplesName = format.integer()    ? GL_MAX_INTEGER_SAMPLES
+                                 : format.hasDepth() ? GL_MAX_DEPTH_TEXTURE_SAMPLES
+                                                     : GL_MAX_COLOR_TEXTURE_SAMPLES;
+    const int mostSamples = isMultisample(d.target) ? integerParameter(context, samplesName) : 1;
+    if (d.samples < 1 || d.samples > mostSamples) {
+        return "the texture has " + std::to_string(d.samples) + " samples a pixel, not 1 to " +
+               std::to_string(mostSamples);
+    }
+    const bool hasLevels =
+        d.target != T::rectangle && d.target != T::buffer && !isMultisample(d.target);
+    if (d.levels > (hasLevels ? fullLevels(d) : 1)) {
         return "the texture has more levels than its size allows";
     }
     return {};
@@ -111,6 +184,16 @@ Texture::Texture(const GlContext& context, const TextureDescription& description
     create();
 }
 
+Texture::Texture(const GlContext& context, InternalFormat format,
+                 std::shared_ptr<const Buffer> buffer)
+    : context_(&context)
+    , format_(&formatInfo(format))
+    , buffer_(std::move(buffer)) {
+    const auto pixels = int(buffer_->size() / std::size_t(format_->bytes));
+    description_ = {.target = T::buffer, .format = format, .width = std::max(1, pixels)};
+    create();
+}
+
 Texture::~Texture() {
     destroy();
 }
@@ -121,6 +204,7 @@ Texture::Texture(Texture&& other) noexcept
     , description_(other.description_)
     , sampling_(other.sampling_)
     , format_(other.format_)
+    , buffer_(std::move(other.buffer_))
     , name_(std::exchange(other.name_, 0))
     , serial_(other.serial_)
     , allocated_(other.allocated_)
@@ -131,6 +215,7 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     std::swap(description_, other.description_);
     std::swap(sampling_, other.sampling_);
     std::swap(format_, other.format_);
+    std::swap(buffer_, other.buffer_);
     std::swap(name_, other.name_);
     std::swap(serial_, other.serial_);
     std::swap(allocated_, other.allocated_);
@@ -143,14 +228,39 @@ void Texture::create() {
     assert(problem(*context_, description_).empty() && "Texture: impossible description");
     auto& d = description_;
     if (fullChain_) {
-        const bool chain = sampling_.mipmapped() && d.target != T::rectangle;
+        const bool chain = sampling_.mipmapped() && d.target != T::rectangle && isSampled();
         d.levels = chain ? fullLevels(d) : 1;
     }
+    d.levels = std::max(1, d.levels);
     const auto& gl = context_->gl();
     gl.CreateTextures(unsigned(d.target), 1, &name_);
     context_->countObject(1);
     serial_ = context_->nextSerial();
+    {
+        const QuietAllocation quiet(*context_);
+        allocate();
+    }
+    GLint immutable = GLint(d.target == T::buffer);
+    if (!immutable) gl.GetTextureParameteriv(name_, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
+    allocated_ = immutable != 0;
+    if (allocated_) applySampling();
+}
+
+void Texture::allocate() {
+    const auto& d = description_;
+    const auto& gl = context_->gl();
     switch (d.target) {
+    case T::buffer:
+        gl.TextureBuffer(name_, format_->storage, buffer_->name());
+        break;
+    case T::multisample2D:
+        gl.TextureStorage2DMultisample(name_, d.samples, format_->storage, d.width, d.height,
+                                       GL_TRUE);
+        break;
+    case T::multisample2DArray:
+        gl.TextureStorage3DMultisample(name_, d.samples, format_->storage, d.width, d.height,
+                                       d.layers, GL_TRUE);
+        break;
     case T::texture1D:
         gl.TextureStorage1D(name_, d.levels, format_->storage, d.width);
         break;
@@ -166,10 +276,10 @@ void Texture::create() {
         gl.TextureStorage3D(name_, d.levels, format_->storage, d.width, d.height, zCount());
         break;
     }
-    GLint immutable = 0;
-    gl.GetTextureParameteriv(name_, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
-    allocated_ = immutable != 0;
-    if (allocated_) applySampling();
+}
+
+bool Texture::isSampled() const {
+    return description_.target != T::buffer && !isMultisample(description_.target);
 }
 
 void Texture::destroy() {
@@ -214,59 +324,19 @@ void Texture::setSampling(const SamplingParameters& sampling) {
 }
 
 void Texture::applySampling() {
+    if (!isSampled()) return;
     const auto& gl = context_->gl();
-    const auto set = [&](unsigned parameter, auto value) {
-        gl.TextureParameteri(name_, parameter, GLint(value));
-    };
     const auto& s = sampling_;
+    const TextureCalls calls{gl, name_};
     const bool isRectangle = description_.target == T::rectangle;
-    MinFilter min = s.min;
-    if (isRectangle && s.mipmapped()) min = MinFilter::linear;
-    // OpenGL calls a filtered integer texture incomplete, and so black.
-    if (format_->integer())
-        min = s.mipmapped() ? MinFilter::nearestMipmapNearest : MinFilter::nearest;
-    set(GL_TEXTURE_MIN_FILTER, min);
-    set(GL_TEXTURE_MAG_FILTER, format_->integer() ? MagFilter::nearest : s.mag);
-    const auto wrap = [&](Wrap wanted) {
-        const bool repeats = wanted == Wrap::repeat || wanted == Wrap::mirroredRepeat;
-        return isRectangle && repeats ? Wrap::clampToEdge : wanted;
-    };
-    set(GL_TEXTURE_WRAP_S, wrap(s.wrapS));
-    set(GL_TEXTURE_WRAP_T, wrap(s.wrapT));
-    set(GL_TEXTURE_WRAP_R, wrap(s.wrapR));
-    gl.TextureParameterf(name_, GL_TEXTURE_MIN_LOD, s.minLod);
-    gl.TextureParameterf(name_, GL_TEXTURE_MAX_LOD, s.maxLod);
-    gl.TextureParameterf(name_, GL_TEXTURE_LOD_BIAS, s.bias);
+    sendSampling(*context_, s, {.integer = format_->integer(), .rectangle = isRectangle}, calls);
     if (!isRectangle) {
-        set(GL_TEXTURE_BASE_LEVEL, std::max(0, s.minLevel));
-        set(GL_TEXTURE_MAX_LEVEL, std::max(0, s.maxLevel));
-    }
-    const float anisotropy = std::clamp(s.anisotropy, 1.0F, context_->maxAnisotropy());
-    if (gl.ARB_texture_filter_anisotropic || gl.EXT_texture_filter_anisotropic) {
-        gl.TextureParameterf(name_, GL_TEXTURE_MAX_ANISOTROPY, anisotropy);
+        calls.integer(GL_TEXTURE_BASE_LEVEL, std::max(0, s.minLevel));
+        calls.integer(GL_TEXTURE_MAX_LEVEL, std::max(0, s.maxLevel));
     }
     GLint swizzle[4];
     std::transform(s.swizzle.begin(), s.swizzle.end(), swizzle, [](auto c) { return GLint(c); });
     gl.TextureParameteriv(name_, GL_TEXTURE_SWIZZLE_RGBA, swizzle);
-    const bool compares = s.compare != CompareFunction::always;
-    set(GL_TEXTURE_COMPARE_MODE, compares ? GL_COMPARE_REF_TO_TEXTURE : GL_NONE);
-    if (compares) set(GL_TEXTURE_COMPARE_FUNC, s.compare);
-
-    if (s.borderType == BorderType::integer) {
-        const GLint colour[4] = {GLint(s.border.r), GLint(s.border.g), GLint(s.border.b),
-                                 GLint(s.border.a)};
-        gl.TextureParameterIiv(name_, GL_TEXTURE_BORDER_COLOR, colour);
-    } else if (s.borderType == BorderType::unsignedInteger) {
-        const GLuint colour[4] = {GLuint(s.border.r), GLuint(s.border.g), GLuint(s.border.b),
-                                  GLuint(s.border.a)};
-        gl.TextureParameterIuiv(name_, GL_TEXTURE_BORDER_COLOR, colour);
-    } else {
-        const double scale = s.borderType == BorderType::real
-                                 ? 1.0
-                                 : double(std::numeric_limits<std::int32_t>::max());
-        const glm::vec4 colour(s.border / scale);
-        gl.TextureParameterfv(name_, GL_TEXTURE_BORDER_COLOR, &colour.x);
-    }
 }
 
 void Texture::upload(TransferLayout layout, std::span<const std::byte> pixels) {
@@ -276,6 +346,7 @@ void Texture::upload(TransferLayout layout, std::span<const std::byte> pixels) {
 
 void Texture::upload(const TextureRegion& region, TransferLayout layout,
                      std::span<const std::byte> pixels) {
+    assert(isSampled() && "Texture::upload(): multisample and buffer textures have none");
     assert(pixels.size() >= pixelCount(region) * layout.pixelSize() &&
            "Texture::upload(): too few pixels");
     const auto& gl = context_->gl();
@@ -331,6 +402,7 @@ void Texture::clear() {
 }
 
 std::vector<std::byte> Texture::download(const TextureRegion& region, TransferLayout layout) const {
+    assert(isSampled() && "Texture::download(): multisample and buffer textures have none");
     std::vector<std::byte> pixels(pixelCount(region) * layout.pixelSize());
     const auto r = toGl(description_.target, region);
     context_->gl().GetTextureSubImage(name_, r.level, r.x, r.y, r.z, r.width, r.height, r.depth,
@@ -360,6 +432,7 @@ void Texture::generateMipmaps(int layer) {
 }
 
 void Texture::resize(int width, int height) {
+    assert(!buffer_ && "Texture::resize(): the buffer decides");
     if (width == description_.width && height == description_.height) return;
     destroy();
     description_.width = width;

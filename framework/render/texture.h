@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "render/buffer.h"
 #include "render/context.h"
 #include "render/sampling_parameters.h"
 #include "render/texture_format.h"
@@ -8,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +24,10 @@ enum class TextureTarget : unsigned {
     texture3D = 0x806F,
     cube = 0x8513,
     cubeArray = 0x9009,
-    rectangle = 0x84F5
+    rectangle = 0x84F5,
+    multisample2D = 0x9100,
+    multisample2DArray = 0x9102,
+    buffer = 0x8C2A
 };
 
 /// What a texture is made of. What a target does not have stays 1.
@@ -30,10 +35,11 @@ struct TextureDescription {
     TextureTarget target = TextureTarget::texture2D;
     InternalFormat format = InternalFormat::rgba8;
     int width = 1;
-    int height = 1; ///< of one slice, layer or face; equals width for cubes
-    int depth = 1;  ///< slices of a 3D texture
-    int layers = 1; ///< of arrays; whole cubes of a cube array
-    int levels = 0; ///< 0: the full chain if the sampling is mipmapped, else 1
+    int height = 1;  ///< of one slice, layer or face; equals width for cubes
+    int depth = 1;   ///< slices of a 3D texture
+    int layers = 1;  ///< of arrays; whole cubes of a cube array
+    int levels = 0;  ///< 0: the full chain if the sampling is mipmapped, else 1
+    int samples = 1; ///< a pixel, of multisample textures; drivers may take more
 
     bool operator==(const TextureDescription&) const = default;
 };
@@ -54,11 +60,17 @@ struct TextureRegion {
 ///                   {.wrapS = Wrap::repeat, .wrapT = Wrap::repeat});
 ///     noise.upload({TransferFormat::red, TransferType::u8}, pixels);
 ///     noise.bind(0);
+///
+/// Multisample textures are drawn into, and read by shaders sample by sample; they have neither
+/// levels nor sampling parameters, and can't be uploaded nor downloaded. Buffer textures are a
+/// view of a Buffer as a line of pixels, without levels and sampling parameters either.
 class Texture : public Resource {
 public:
     /// Contents are undefined until the first upload. `description` must be without problem().
     Texture(const GlContext& context, const TextureDescription& description,
             const SamplingParameters& sampling = {});
+    /// A buffer texture: the pixels that a buffer holds now. It keeps the buffer alive.
+    Texture(const GlContext& context, InternalFormat format, std::shared_ptr<const Buffer> buffer);
     ~Texture() override;
     Texture(Texture&& other) noexcept;
     Texture& operator=(Texture&& other) noexcept;
@@ -79,6 +91,8 @@ public:
     TextureRegion region(int level = 0) const;
     const GlContext& context() const { return *context_; }
 
+    /// Whether shaders filter and wrap it: not multisample and buffer textures.
+    bool isSampled() const;
     /// False when the driver had no memory for it; it can then only be destroyed.
     bool allocated() const { return allocated_; }
     unsigned name() const { return name_; }
@@ -114,6 +128,7 @@ public:
 
 private:
     void create();
+    void allocate();
     void destroy();
     void applySampling();
 
@@ -121,6 +136,7 @@ private:
     TextureDescription description_;
     SamplingParameters sampling_;
     const InternalFormatInfo* format_;
+    std::shared_ptr<const Buffer> buffer_; ///< of buffer textures
     unsigned name_ = 0;
     std::uint64_t serial_ = 0;
     bool allocated_ = false;

@@ -149,6 +149,20 @@ constexpr auto kTransferFormats = std::to_array<TransferFormatInfo>({
 static_assert(unsigned(F::bgraInteger) == GL_BGRA_INTEGER);
 static_assert(unsigned(F::rgInteger) == GL_RG_INTEGER && unsigned(F::rg) == GL_RG);
 static_assert(unsigned(T::f32) == GL_FLOAT && unsigned(T::f16) == GL_HALF_FLOAT);
+static_assert(unsigned(T::u8x332) == GL_UNSIGNED_BYTE_3_3_2);
+static_assert(unsigned(T::u8x233Reversed) == GL_UNSIGNED_BYTE_2_3_3_REV);
+static_assert(unsigned(T::u16x565) == GL_UNSIGNED_SHORT_5_6_5);
+static_assert(unsigned(T::u16x565Reversed) == GL_UNSIGNED_SHORT_5_6_5_REV);
+static_assert(unsigned(T::u16x4444) == GL_UNSIGNED_SHORT_4_4_4_4);
+static_assert(unsigned(T::u16x4444Reversed) == GL_UNSIGNED_SHORT_4_4_4_4_REV);
+static_assert(unsigned(T::u16x5551) == GL_UNSIGNED_SHORT_5_5_5_1);
+static_assert(unsigned(T::u16x1555Reversed) == GL_UNSIGNED_SHORT_1_5_5_5_REV);
+static_assert(unsigned(T::u32x8888) == GL_UNSIGNED_INT_8_8_8_8);
+static_assert(unsigned(T::u32x8888Reversed) == GL_UNSIGNED_INT_8_8_8_8_REV);
+static_assert(unsigned(T::u32x1010102) == GL_UNSIGNED_INT_10_10_10_2);
+static_assert(unsigned(T::u32x2101010Reversed) == GL_UNSIGNED_INT_2_10_10_10_REV);
+static_assert(unsigned(T::u32x10f11f11f) == GL_UNSIGNED_INT_10F_11F_11F_REV);
+static_assert(unsigned(T::u32x5999) == GL_UNSIGNED_INT_5_9_9_9_REV);
 static_assert(unsigned(T::f32u24u8) == GL_FLOAT_32_UNSIGNED_INT_24_8_REV);
 static_assert(unsigned(InternalFormat::depth32fStencil8) == GL_DEPTH32F_STENCIL8);
 
@@ -187,7 +201,7 @@ bool isInteger(TransferFormat format) {
 
 std::size_t TransferLayout::pixelSize() const {
     const auto channels = std::size_t(channelCount(format));
-    switch (type) {
+    switch (type) { // packed types hold a whole pixel
     case T::i8:
     case T::u8:
         return channels;
@@ -199,6 +213,22 @@ std::size_t TransferLayout::pixelSize() const {
     case T::u32:
     case T::f32:
         return 4 * channels;
+    case T::u8x332:
+    case T::u8x233Reversed:
+        return 1;
+    case T::u16x565:
+    case T::u16x565Reversed:
+    case T::u16x4444:
+    case T::u16x4444Reversed:
+    case T::u16x5551:
+    case T::u16x1555Reversed:
+        return 2;
+    case T::u32x8888:
+    case T::u32x8888Reversed:
+    case T::u32x1010102:
+    case T::u32x2101010Reversed:
+    case T::u32x10f11f11f:
+    case T::u32x5999:
     case T::u24u8:
         return 4;
     case T::f32u24u8:
@@ -230,9 +260,30 @@ const Words<TransferFormat>& transferFormatWords() {
 }
 
 const Words<TransferType>& transferTypeWords() {
-    static const Words<TransferType> words{
-        {"UNSIGNED_BYTE", T::u8}, {"BYTE", T::i8}, {"UNSIGNED_SHORT", T::u16}, {"SHORT", T::i16},
-        {"UNSIGNED_INT", T::u32}, {"INT", T::i32}, {"HALF", T::f16},           {"FLOAT", T::f32}};
+    static const Words<TransferType> words{{"UNSIGNED_BYTE", T::u8},
+                                           {"BYTE", T::i8},
+                                           {"UNSIGNED_SHORT", T::u16},
+                                           {"SHORT", T::i16},
+                                           {"UNSIGNED_INT", T::u32},
+                                           {"INT", T::i32},
+                                           {"HALF", T::f16},
+                                           {"FLOAT", T::f32},
+                                           {"UNSIGNED_BYTE_3_3_2", T::u8x332},
+                                           {"UNSIGNED_BYTE_2_3_3_REV", T::u8x233Reversed},
+                                           {"UNSIGNED_SHORT_5_6_5", T::u16x565},
+                                           {"UNSIGNED_SHORT_5_6_5_REV", T::u16x565Reversed},
+                                           {"UNSIGNED_SHORT_4_4_4_4", T::u16x4444},
+                                           {"UNSIGNED_SHORT_4_4_4_4_REV", T::u16x4444Reversed},
+                                           {"UNSIGNED_SHORT_5_5_5_1", T::u16x5551},
+                                           {"UNSIGNED_SHORT_1_5_5_5_REV", T::u16x1555Reversed},
+                                           {"UNSIGNED_INT_8_8_8_8", T::u32x8888},
+                                           {"UNSIGNED_INT_8_8_8_8_REV", T::u32x8888Reversed},
+                                           {"UNSIGNED_INT_10_10_10_2", T::u32x1010102},
+                                           {"UNSIGNED_INT_2_10_10_10_REV", T::u32x2101010Reversed},
+                                           {"UNSIGNED_INT_10F_11F_11F_REV", T::u32x10f11f11f},
+                                           {"UNSIGNED_INT_5_9_9_9_REV", T::u32x5999},
+                                           {"UNSIGNED_INT_24_8", T::u24u8},
+                                           {"FLOAT_32_UNSIGNED_INT_24_8_REV", T::f32u24u8}};
     return words;
 }
 

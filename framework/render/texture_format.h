@@ -62,8 +62,8 @@ enum class TransferFormat : unsigned {
     bgraInteger = 0x8D9B
 };
 
-/// The type of a channel in memory; of a whole pixel for the two packed types, which have no word
-/// in archives.
+/// The type of a channel in memory, or, from u8x332 on, of a whole pixel. A packed type goes with
+/// formats of as many channels as it has numbers.
 enum class TransferType : unsigned {
     i8 = 0x1400,
     u8,
@@ -73,6 +73,20 @@ enum class TransferType : unsigned {
     u32,
     f32,
     f16 = 0x140B,
+    u8x332 = 0x8032,
+    u8x233Reversed = 0x8362,
+    u16x565 = 0x8363,
+    u16x565Reversed = 0x8364,
+    u16x4444 = 0x8033,
+    u16x4444Reversed = 0x8365,
+    u16x5551 = 0x8034,
+    u16x1555Reversed = 0x8366,
+    u32x8888 = 0x8035,
+    u32x8888Reversed = 0x8367,
+    u32x1010102 = 0x8036,
+    u32x2101010Reversed = 0x8368,
+    u32x10f11f11f = 0x8C3B,
+    u32x5999 = 0x8C3E,
     u24u8 = 0x84FA,   ///< depth and stencil of depth24Stencil8
     f32u24u8 = 0x8DAD ///< depth and stencil of depth32fStencil8, 8 bytes
 };

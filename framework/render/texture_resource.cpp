@@ -80,6 +80,10 @@ std::string describe(T target, const Geometry& g, TextureDescription& d) {
         d.height = g.width;
         d.layers = g.height / (6 * g.width);
         break;
+    case T::multisample2D:
+    case T::multisample2DArray:
+    case T::buffer:
+        return "archives can't describe such a texture"; // nor does one of their tags
     }
     return {};
 }
@@ -95,6 +99,8 @@ void needAttribute(const TextureElement& d, const char* name, Diagnostics& diagn
 
 void checkSizes(T target, const TextureElement& d, Diagnostics& diagnostics) {
     const std::size_t before = diagnostics.errors();
+    if (!d.format.given) needAttribute(d, "format", diagnostics);
+    if (!d.type.given) needAttribute(d, "type", diagnostics);
     if (!d.width.given) needAttribute(d, "width", diagnostics);
     if (hasHeight(target) && !d.height.given) needAttribute(d, "height", diagnostics);
     const bool counted = d.depth.given || (target == T::texture2DArray && d.layers.given);
@@ -242,9 +248,10 @@ void declareTexture(Registry& registry, const std::string& tag, T target, std::s
         .attribute("internalformat", &D::internalformat, "how pixels are stored",
                    internalFormatWords())
         .required()
-        .attribute("format", &D::format, "channels of the pixels of the file",
+        .attribute("format", &D::format, "channels of the pixels of the file; needed without one",
                    transferFormatWords())
-        .attribute("type", &D::type, "type of a channel; a file's own type counts",
+        .attribute("type", &D::type,
+                   "type of a channel; a file's own type counts, and without a file it is needed",
                    transferTypeWords())
         .attribute("width", &D::width, "width, unless the source says it")
         .unit("pixels")

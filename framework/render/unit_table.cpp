@@ -11,7 +11,7 @@ UnitTable::UnitTable(unsigned units)
     assert(units > 0 && "UnitTable: no units");
 }
 
-unsigned UnitTable::unitFor(std::uint64_t key, unsigned hint) {
+unsigned UnitTable::unitFor(const UnitKey& key, unsigned hint) {
     std::size_t index = hint < units_.size() ? hint : 0;
     if (units_[index].key != key) {
         const auto held = std::find_if(units_.begin(), units_.end(),

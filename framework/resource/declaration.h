@@ -47,6 +47,7 @@ struct AttributeDeclaration {
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
     bool minimumExcluded = false;
+    bool infinite = false; ///< numbers: infinity is one
     std::vector<std::string> words;     ///< of enumerations
     std::vector<std::string> aliases;   ///< other accepted spellings of the attribute's name
     bool trueUnlessFalse = false;       ///< booleans: any word but "false" is true
@@ -148,6 +149,8 @@ public:
         return atLeast(value);
     }
     Derived& atMost(double value) { return last().maximum = value, self(); }
+    /// Infinity is a value, too; without this it is out of range.
+    Derived& orInfinite() { return last().infinite = true, self(); }
     Derived& alias(std::string name) {
         last().aliases.push_back(std::move(name));
         return self();

@@ -43,7 +43,8 @@ std::string renderbufferXml(const std::string& name) {
     if (pieces.size() < 3) return {};
     const std::string size = escaped(pieces[1]);
     return "<texture2D internalformat=\"" + escaped(pieces[2]) + "\" width=\"" + size +
-           "\" height=\"" + size + "\" min=\"NEAREST\" mag=\"NEAREST\"/>";
+           "\" height=\"" + size +
+           "\" format=\"RED\" type=\"FLOAT\" min=\"NEAREST\" mag=\"NEAREST\"/>";
 }
 
 std::string imageXml(const std::string& name) {

@@ -58,7 +58,7 @@ std::string rangeText(const AttributeDeclaration& a) {
     if (below && above && a.minimumExcluded)
         return fmt::format("more than {} and at most {}{}", a.minimum, a.maximum, unit);
     if (below && above) return fmt::format("{} to {}{}", a.minimum, a.maximum, unit);
-    if (!below && !above) return "a number";
+    if (!below && !above) return "a finite number";
     if (below)
         return fmt::format("{} {}{}", a.minimumExcluded ? "more than" : "at least", a.minimum,
                            unit);
@@ -68,7 +68,8 @@ std::string rangeText(const AttributeDeclaration& a) {
 bool inRange(double value, std::string_view piece, const Place& place,
              const AttributeDeclaration& a, Diagnostics& diagnostics) {
     const bool low = a.minimumExcluded ? value <= a.minimum : value < a.minimum;
-    if (!low && !(value > a.maximum) && !std::isnan(value)) return true;
+    const bool finite = std::isfinite(value) || (a.infinite && !std::isnan(value));
+    if (!low && !(value > a.maximum) && finite) return true;
     diagnostics.error("out-of-range", place,
                       "'" + a.name + "' of " + inQuotes(piece) + " is out of range", rangeText(a));
     return false;
@@ -85,7 +86,8 @@ bool readPiece(std::string_view piece, const Place& place, const AttributeText& 
     }
     checkRest(piece, number->length, place, a, diagnostics);
     value = static_cast<T>(number->value);
-    return inRange(static_cast<double>(number->value), piece, place, a, diagnostics);
+    // As it is stored: what is too large for it is infinite.
+    return inRange(static_cast<double>(value), piece, place, a, diagnostics);
 }
 
 template <class T, class Parse>

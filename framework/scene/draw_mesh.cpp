@@ -8,9 +8,15 @@
 #include "scene/bind_context.h"
 #include "scene/scene_manager.h"
 
+#include <algorithm>
+#include <cstdint>
+
 namespace terrane {
 
 namespace {
+
+// A hundred times what a frame can have: more would never end.
+constexpr std::uint64_t kMostVertices = 1U << 30;
 
 struct DrawMeshDescription : ElementDescription {
     Attr<Target> mesh;
@@ -49,13 +55,23 @@ public:
         , count_(d.count) {}
     std::unique_ptr<BoundTask> bind(BindContext& context) const override {
         Mesh* const mesh = findMesh(mesh_, context);
-        if (!mesh) return nullptr;
+        if (!mesh || tooMuch(*mesh, context)) return nullptr;
         return makeStep<DrawMeshTask>(*mesh, count_, mesh_.place, context.scene());
     }
 
 private:
+    bool tooMuch(const Mesh& mesh, BindContext& context) const {
+        const std::uint64_t vertices = mesh.indexed() ? mesh.indexCount() : mesh.vertexCount();
+        if (vertices * std::uint64_t(std::max(0, *count_)) <= kMostVertices) return false;
+        context.diagnostics().error(
+            "too-many", count_.given ? count_.place : mesh_.place,
+            std::to_string(*count_) + " times " + std::to_string(vertices) + " vertices",
+            "at most " + std::to_string(kMostVertices) + " vertices a draw");
+        return true;
+    }
+
     Attr<Target> mesh_;
-    int count_;
+    Attr<int> count_;
 };
 
 } // namespace

@@ -285,15 +285,36 @@ struct MultisamplingElement : StateElement {
 
 /// Conditional rendering on a query that nothing ran: accepted, without effect.
 struct OcclusionElement : StateElement {
-    Attr<std::string> query, mode;
+    enum class Query { primitives, feedback, samples, anySamples, time };
+    enum class Mode { wait, noWait, regionWait, regionNoWait };
+    inline static const Words<Query> queryWords{
+        {"SAMPLES_PASSED", Query::samples},
+        {"ANY_SAMPLES_PASSED", Query::anySamples},
+        {"PRIMITIVES_GENERATED", Query::primitives},
+        {"TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN", Query::feedback},
+        {"TIME_STAMP", Query::time}};
+    inline static const Words<Mode> modeWords{{"WAIT", Mode::wait},
+                                              {"NO_WAIT", Mode::noWait},
+                                              {"REGION_WAIT", Mode::regionWait},
+                                              {"REGION_NO_WAIT", Mode::regionNoWait}};
+
+    Attr<Query> query = Query::samples;
+    Attr<Mode> mode = Mode::wait;
     void apply(PipelineState&) const override {}
+    static void check(const OcclusionElement& d, Diagnostics& diagnostics) {
+        if (*d.query == Query::samples || *d.query == Query::anySamples) return;
+        diagnostics.warning("unused-attribute", d.query.place,
+                            "no drawing can depend on such a query",
+                            "'SAMPLES_PASSED' or 'ANY_SAMPLES_PASSED'");
+    }
     static const ElementDeclaration& declare(Registry& registry) {
         using D = OcclusionElement;
         return registry.element<D>("occlusion", "Accepted; an archive has no queries to wait for.")
-            .attribute("query", &D::query, "kind of query")
+            .attribute("query", &D::query, "kind of query", queryWords)
             .required()
-            .attribute("mode", &D::mode, "whether to wait")
+            .attribute("mode", &D::mode, "whether to wait", modeWords)
             .required()
+            .check(check)
             .declaration();
     }
 };

@@ -24,7 +24,9 @@ SceneManager::SceneManager(ResourceManager& resources, const GlContext& context,
                            Framebuffer& screen)
     : resources_(resources)
     , context_(context)
-    , offscreen_(std::make_unique<Framebuffer>(context)) {
+    , offscreen_(std::make_unique<Framebuffer>(context))
+    , nowhere_(std::make_unique<Framebuffer>(context)) {
+    nowhere_->setSizeWithoutAttachments(1, 1);
     drawState_.screen = drawState_.framebuffer = &screen;
 }
 
@@ -152,6 +154,7 @@ bool SceneManager::draw() {
     FrameBuilder frame(graph_);
     plan_->emit(frame);
     scheduler_->run(graph_);
+    infoTexts_.clear();
     ++frameNumber_;
     return true;
 }

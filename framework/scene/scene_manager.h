@@ -3,6 +3,8 @@
 
 #include "core/diagnostic.h"
 #include "resource/manager.h"
+#include "scene/info_texts.h"
+#include "scene/message_log.h"
 #include "scene/scene_node.h"
 #include "scene/scene_task.h"
 #include "task/scheduler.h"
@@ -48,6 +50,13 @@ public:
     Program* currentProgram(const Place& place) const;
     /// The framebuffer that every setTarget attaches its textures to.
     Framebuffer& offscreen() { return *offscreen_; }
+    /// Drawing goes here, and so is not seen, where a setTarget failed.
+    Framebuffer& nowhere() { return *nowhere_; }
+
+    /// What code wants showInfo to write in this frame.
+    InfoTexts& infoTexts() { return infoTexts_; }
+    /// What showLog writes.
+    MessageLog& messageLog() { return messageLog_; }
 
     void setRoot(Ref<SceneNode> root);
     SceneNode* root() const { return root_.get(); }
@@ -97,6 +106,9 @@ private:
     Attr<std::string> cameraMethod_ = "draw";
     DrawState drawState_;
     std::unique_ptr<Framebuffer> offscreen_;
+    std::unique_ptr<Framebuffer> nowhere_;
+    InfoTexts infoTexts_;
+    MessageLog messageLog_;
 
     std::map<std::string, std::vector<SceneNode*>> nodesByFlag_;
     bool indexed_ = false;

@@ -52,6 +52,8 @@ public:
     std::map<std::string, Ref<Mesh>, std::less<>> meshes;
     std::map<std::string, NodeMethod, std::less<>> methods;
     std::vector<std::shared_ptr<SceneNode>> children;
+    /// Nodes below this one and itself; one that is referenced several times counts each time.
+    std::size_t size = 1;
 
     /// Resources of any other type: named by a <field>, or nested and owned by the node.
     struct Field {

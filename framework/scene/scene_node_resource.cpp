@@ -14,6 +14,8 @@ namespace terrane {
 
 namespace {
 
+constexpr std::size_t kMostNodes = 100000;
+
 struct TranslateDescription : ElementDescription {
     Attr<double> x = 0, y = 0, z = 0;
 };
@@ -86,8 +88,9 @@ NodeValue valueOf(const ValueDescription& d) {
 // replace the box and meshes enlarge it.
 class NodeMaker {
 public:
-    explicit NodeMaker(SceneNode& node)
-        : node_(node) {}
+    NodeMaker(SceneNode& node, Diagnostics& diagnostics)
+        : node_(node)
+        , diagnostics_(diagnostics) {}
 
     void add(const Child& child) {
         if (auto* t = child.as<TranslateDescription>())
@@ -116,10 +119,23 @@ private:
         } else if (auto* method = child.as<MethodDescription>()) {
             node_.methods[*method->key] = {method->value, *method->enabled};
         } else if (auto node = child.built<SceneNode>()) {
-            node_.children.push_back(std::move(node));
+            addChild(std::move(node), child.description->place);
         } else if (child.description->id.given) {
             node_.fields[*child.description->id] = {{}, child.resource};
         }
+    }
+
+    // A node may be used several times; used twice at each of thirty levels it would be a billion.
+    void addChild(std::shared_ptr<SceneNode> node, const Place& place) {
+        if (node_.size + node->size > kMostNodes) {
+            diagnostics_.error("too-many", place,
+                               "the scene has more than " + std::to_string(kMostNodes) +
+                                   " nodes, those that are used several times counted each time",
+                               "fewer references to nodes");
+            return;
+        }
+        node_.size += node->size;
+        node_.children.push_back(std::move(node));
     }
 
     void addMesh(const KeyedDescription<Mesh>& mesh) {
@@ -130,9 +146,10 @@ private:
     }
 
     SceneNode& node_;
+    Diagnostics& diagnostics_;
 };
 
-std::shared_ptr<SceneNode> buildNode(const NodeDescription& d, BuildContext&) {
+std::shared_ptr<SceneNode> buildNode(const NodeDescription& d, BuildContext& context) {
     // A reference to another node: everything else that it says is ignored.
     if (d.value.given()) return std::static_pointer_cast<SceneNode>(d.value.entry()->instance);
     auto node = std::make_shared<SceneNode>();
@@ -140,7 +157,7 @@ std::shared_ptr<SceneNode> buildNode(const NodeDescription& d, BuildContext&) {
     node->name = *d.name;
     node->flags = *d.flags;
     if (!node->name.empty()) node->flags.push_back(node->name);
-    NodeMaker maker(*node);
+    NodeMaker maker(*node, context.diagnostics());
     for (const Child& child : d.children)
         maker.add(child);
     return node;
@@ -164,9 +181,13 @@ const ElementDeclaration& declareValue(Registry& registry) {
         .attribute("id", &D::key, "key, and name of the uniform")
         .required()
         .attribute("x", &D::x, "first component")
+        .orInfinite()
         .attribute("y", &D::y, "second component")
+        .orInfinite()
         .attribute("z", &D::z, "third component")
+        .orInfinite()
         .attribute("w", &D::w, "fourth component")
+        .orInfinite()
         .attribute("type", &D::type, "BOOL, INT, UINT or FLOAT; any other word means double")
         .attribute("texture", &D::texture, "texture of a sampler value")
         .ignored("name", "ignored")

@@ -10,6 +10,8 @@
 #include "scene/scene_manager.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 namespace terrane {
 
@@ -34,6 +36,21 @@ struct BoundBuffer {
     Place place;
 };
 
+/// Nothing that follows is seen: it would be drawn where it does not belong.
+class SetNowhereTask : public FrameTask {
+public:
+    explicit SetNowhereTask(SceneManager& scene)
+        : FrameTask("SetTarget")
+        , scene_(scene) {}
+    bool run() override {
+        scene_.drawState().framebuffer = &scene_.nowhere();
+        return true;
+    }
+
+private:
+    SceneManager& scene_;
+};
+
 /// Back to the screen; the textures drawn into get their mipmaps.
 class SetScreenTask : public FrameTask {
 public:
@@ -52,26 +69,44 @@ private:
 
 class SetTargetTask : public FrameTask {
 public:
-    SetTargetTask(std::vector<BoundBuffer> buffers, bool autoResize, SceneManager& scene)
+    SetTargetTask(std::vector<BoundBuffer> buffers, bool autoResize, const Place& place,
+                  SceneManager& scene)
         : FrameTask("SetTarget")
         , buffers_(std::move(buffers))
         , autoResize_(autoResize)
+        , place_(place)
         , scene_(scene) {}
 
     bool run() override {
         Framebuffer& framebuffer = scene_.offscreen();
+        const bool usable = attachAll(framebuffer) && isComplete(framebuffer);
+        scene_.drawState().framebuffer = usable ? &framebuffer : &scene_.nowhere();
+        if (!usable) return false;
+        const Attachment& last = framebuffer.attachment(buffers_.back().point);
+        framebuffer.state.viewport = {0, 0, last.width(), last.height()};
+        return true;
+    }
+
+private:
+    bool attachAll(Framebuffer& framebuffer) const {
         detachOthers(framebuffer);
         for (const BoundBuffer& buffer : buffers_) {
             if (autoResize_) resize(*buffer.texture);
             if (!attach(framebuffer, buffer)) return false;
         }
-        const Attachment& last = framebuffer.attachment(buffers_.back().point);
-        framebuffer.state.viewport = {0, 0, last.width(), last.height()};
-        scene_.drawState().framebuffer = &framebuffer;
         return true;
     }
 
-private:
+    // Asks OpenGL only when a texture is another one than the last time.
+    bool isComplete(const Framebuffer& framebuffer) {
+        std::array<std::uint64_t, kAttachmentPoints> serials{};
+        for (const BoundBuffer& buffer : buffers_)
+            serials[std::size_t(buffer.point)] = buffer.texture->serial();
+        if (checked_ == serials) return complete_;
+        checked_ = serials;
+        return complete_ = framebuffer.isComplete(scene_.resources().diagnostics(), place_);
+    }
+
     bool attach(Framebuffer& framebuffer, const BoundBuffer& buffer) const {
         const Attachment attachment{buffer.texture.shared(), buffer.level, buffer.layer};
         const std::string problem = Framebuffer::problem(buffer.point, attachment);
@@ -99,7 +134,10 @@ private:
 
     std::vector<BoundBuffer> buffers_;
     bool autoResize_;
+    Place place_;
     SceneManager& scene_;
+    std::array<std::uint64_t, kAttachmentPoints> checked_{}; ///< serials of the textures
+    bool complete_ = false;
 };
 
 // `node.id` is a sampler value of the node; `node.module:sampler` what a module gives a sampler.
@@ -117,7 +155,8 @@ Ref<Texture> findTexture(const Attr<Target>& name, BindContext& context) {
     }
     const auto module = node->modules.find(name->name.substr(0, colon));
     const std::string sampler = name->name.substr(colon + 1);
-    if (module != node->modules.end() && module->second) {
+    if (module != node->modules.end() && !module->second) return {}; // told at the node
+    if (module != node->modules.end()) {
         for (const InitialUniform& uniform : module->second->uniforms()) {
             if (uniform.name == sampler && uniform.texture) return uniform.texture;
         }
@@ -129,14 +168,18 @@ Ref<Texture> findTexture(const Attr<Target>& name, BindContext& context) {
 class SetTarget : public SceneTask {
 public:
     explicit SetTarget(const SetTargetDescription& d)
-        : autoResize_(d.autoResize) {
+        : autoResize_(d.autoResize)
+        , place_(d.place) {
         for (const Child& child : d.children) {
-            if (auto* buffer = child.as<BufferDescription>()) buffers_.push_back(*buffer);
+            const auto* buffer = child.as<BufferDescription>();
+            if (!buffer) continue;
+            toScreen_ = false;
+            if (*buffer->point != AttachmentPoint::none) buffers_.push_back(*buffer);
         }
     }
 
     std::unique_ptr<BoundTask> bind(BindContext& context) const override {
-        if (buffers_.empty()) return makeStep<SetScreenTask>(context.scene());
+        if (toScreen_) return makeStep<SetScreenTask>(context.scene());
         std::vector<BoundBuffer> bound;
         bool complete = true;
         for (const BufferDescription& b : buffers_) {
@@ -144,8 +187,8 @@ public:
             complete &= texture && canResize(*texture, b, context);
             bound.push_back({b.point, texture, b.level, b.layer, b.texture.place});
         }
-        if (!complete) return nullptr;
-        return makeStep<SetTargetTask>(std::move(bound), autoResize_, context.scene());
+        if (!complete || bound.empty()) return makeStep<SetNowhereTask>(context.scene());
+        return makeStep<SetTargetTask>(std::move(bound), autoResize_, place_, context.scene());
     }
 
 private:
@@ -159,8 +202,16 @@ private:
     }
 
     bool autoResize_;
+    Place place_;
+    bool toScreen_ = true; ///< no buffer is listed
     std::vector<BufferDescription> buffers_;
 };
+
+void checkBuffer(const BufferDescription& d, Diagnostics& diagnostics) {
+    if (*d.point != AttachmentPoint::none) return;
+    diagnostics.warning("unused-element", d.point.place, "a buffer NONE has no effect",
+                        "COLOR0 to COLOR7, DEPTH or STENCIL");
+}
 
 } // namespace
 
@@ -177,6 +228,7 @@ void declareSetTarget(Registry& registry) {
             .atLeast(0)
             .attribute("layer", &B::layer, "layer, slice or cube face; -1: all")
             .atLeast(-1)
+            .check(checkBuffer)
             .declaration();
     using D = SetTargetDescription;
     registry

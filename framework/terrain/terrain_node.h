@@ -33,7 +33,7 @@ public:
         bool horizonCulling = true; ///< don't show quads hidden behind nearer ground
         /// A camera of a tiny field of view could ask for any number of quads; beyond this many
         /// none is split any more, and limitReached() tells.
-        int maxQuads = 1 << 20;
+        int maxQuads = 1 << 16; // ten times those of splitFactor 10
         Place splitFactorPlace; ///< for messages
     };
 

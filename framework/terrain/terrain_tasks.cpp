@@ -34,6 +34,12 @@ public:
         , scene_(scene) {}
 
     void emit(FrameBuilder&) override {
+        update();
+        if (terrain_.limitReached() && !told_) tellLimit();
+    }
+
+private:
+    void update() {
         const auto& viewport = scene_.drawState().screen->state.viewport;
         terrain_.update({.localToCamera = node_.localToCamera,
                          .cameraToScreen = scene_.cameraToScreen,
@@ -41,10 +47,21 @@ public:
                          .viewportWidth = static_cast<double>(viewport.width)});
     }
 
-private:
+    void tellLimit() {
+        told_ = true;
+        const TerrainNode::Parameters& p = terrain_.parameters();
+        const std::string needed = std::to_string(p.maxQuads);
+        scene_.resources().diagnostics().error(
+            "too-many-quads", p.splitFactorPlace,
+            "for this view the terrain would be divided into more than " + needed +
+                " quads; it stays coarser than 'splitFactor' says",
+            "a smaller splitFactor, or a lower maxLevel");
+    }
+
     TerrainNode& terrain_;
     const SceneNode& node_;
     SceneManager& scene_;
+    bool told_ = false;
 };
 
 /// Divides the quadtree of a terrain for the camera of now. The work is done while the graph of the

@@ -7,13 +7,11 @@
 namespace terrane {
 
 void declareTerrainPlugin(Registry& registry) {
+    declareResidualProducer(registry);
     declareElevationProducer(registry);
+    declareCpuElevationProducer(registry);
     declareNormalProducer(registry);
 
-    registry.planned<TileProducer>("residualProducer",
-                                   "Differences between levels of elevations, from a file.");
-    registry.planned<TileProducer>("cpuElevationProducer",
-                                   "Elevations computed on the CPU from residuals.");
     registry.planned<TileProducer>("orthoCpuProducer", "Colour tiles from a file.");
     registry.planned<TileProducer>("orthoGpuProducer",
                                    "Colour tiles on the GPU, from the CPU and from layers.");

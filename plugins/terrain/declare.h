@@ -9,7 +9,9 @@ class Registry;
 /// need the service GlContext.
 void declareTerrainPlugin(Registry& registry);
 
+void declareResidualProducer(Registry& registry);
 void declareElevationProducer(Registry& registry);
+void declareCpuElevationProducer(Registry& registry);
 void declareNormalProducer(Registry& registry);
 
 } // namespace terrane

@@ -52,24 +52,6 @@ bool checkTileSize(const ElevationDescription& d, const GpuTileStorage& storage,
     return false;
 }
 
-bool checkResiduals(const ElevationDescription& d, int tileSize, Diagnostics& diagnostics) {
-    const TileProducer& residuals = *d.residuals;
-    const Place& place = d.residuals.place;
-    const auto* const storage = cpuFloatStorage(residuals.cache(), place, diagnostics);
-    if (!storage) return false;
-    if (residuals.border() != ElevationProducer::kBorder || storage->channels() != 1) {
-        diagnostics.error("wrong-producer", place,
-                          "'" + residuals.name() + "' does not produce residuals",
-                          "a producer of one channel with a border of 2");
-        return false;
-    }
-    const int n = storage->tileSize() - kRest;
-    if (n > 0 && n % (tileSize - kRest) == 0) return true;
-    reportTileSize(*storage, place, "residuals of elevation tiles of " + std::to_string(tileSize),
-                   multiplesNear(tileSize - kRest, kRest, storage->tileSize()), diagnostics);
-    return false;
-}
-
 // Terrain reference 1.7: the last character of the name, if it is a face.
 int faceOf(const ElevationDescription& d, const std::string& name) {
     if (d.face.given) return d.face;
@@ -95,8 +77,11 @@ std::shared_ptr<ElevationProducer> buildElevations(const ElevationDescription& d
     if (!storage) return nullptr;
     const int size = storage->tileSize();
     const bool formatIsRight = checkFormat(*storage, d.cache.place, diagnostics);
+    // First, since a file leaves no choice.
+    if (d.residuals &&
+        !checkResiduals(*storage, d.cache.place, *d.residuals, d.residuals.place, diagnostics))
+        return nullptr;
     if (!checkTileSize(d, *storage, diagnostics) || !formatIsRight) return nullptr;
-    if (d.residuals && !checkResiduals(d, size, diagnostics)) return nullptr;
 
     const std::string target = "renderbuffer-" + std::to_string(size) + "-RGBA32F";
     ElevationProducer::Parameters parameters{

@@ -2,11 +2,9 @@
 #include "plugins/terrain/elevation_producer.h"
 
 #include "plugins/terrain/noise_image.h"
-#include "producer/cpu_tile_storage.h"
 
 #include <cassert>
 #include <cmath>
-#include <cstring>
 
 namespace terrane {
 
@@ -43,12 +41,11 @@ ElevationProducer::ElevationProducer(const GlContext& context, Parameters parame
     , parameters_(std::move(parameters))
     , width_(cache().storage().tileSize())
     , n_(width_ - 1 - 2 * kBorder)
+    , residuals_(parameters_.residuals, width_)
     , pass_(context, parameters_.target)
     , noiseTexture_(makeNoiseTexture(context, width_)) {
     assert(isGpu() && n_ > 0 && n_ % parameters_.gridSize == 0 && "ElevationProducer: tile size");
     if (parameters_.residuals) {
-        const int size = parameters_.residuals->cache().storage().tileSize();
-        residualTiles_ = (size - 1 - 2 * kBorder) / n_;
         residualTexels_.resize(static_cast<std::size_t>(width_) * width_);
     } else {
         parameters_.residualTexture = makeZeroTexture(context);
@@ -71,28 +68,19 @@ ElevationProducer::ElevationProducer(const GlContext& context, Parameters parame
 
 void ElevationProducer::setRootQuadSize(float size) {
     TileProducer::setRootQuadSize(size);
-    if (parameters_.residuals) parameters_.residuals->setRootQuadSize(size);
-}
-
-TileId ElevationProducer::residualTile(const TileId& tile) const {
-    return {tile.level, tile.tx / residualTiles_, tile.ty / residualTiles_};
-}
-
-bool ElevationProducer::hasResidual(const TileId& tile) const {
-    return parameters_.residuals && parameters_.residuals->hasTile(residualTile(tile));
+    residuals_.setRootQuadSize(size);
 }
 
 bool ElevationProducer::prefetchTile(const TileId& tile) {
     if (TileProducer::prefetchTile(tile)) return true;
     // At least the file is read ahead.
-    if (hasResidual(tile)) parameters_.residuals->prefetchTile(residualTile(tile));
+    residuals_.prefetch(tile);
     return false;
 }
 
 bool ElevationProducer::startCreateTile(const TileId& tile, TileInputs& inputs) {
     if (tile.level > 0 && !inputs.need(*this, tile.parent())) return false;
-    if (hasResidual(tile) && !inputs.need(*parameters_.residuals, residualTile(tile))) return false;
-    return TileProducer::startCreateTile(tile, inputs);
+    return residuals_.need(tile, inputs) && TileProducer::startCreateTile(tile, inputs);
 }
 
 bool ElevationProducer::doCreateTile(const TileId& tile, TileSlot& slot, const TileInputs& inputs) {
@@ -129,21 +117,11 @@ void ElevationProducer::setParent(const TileId& tile, const GpuTileStorage::Slot
 
 void ElevationProducer::setResidual(const TileId& tile, const TileInputs& inputs) {
     residualSampler_.set(parameters_.residualTexture);
-    if (!hasResidual(tile)) {
+    if (!residuals_.has(tile)) {
         residualOSH_.set({0, 0, 1, 0});
         return;
     }
-    const TileId id = residualTile(tile);
-    const auto& residual =
-        inputs.get(*parameters_.residuals, id).slot().as<CpuFloatTileStorage::Slot>();
-    const auto stride =
-        static_cast<std::size_t>(parameters_.residuals->cache().storage().tileSize());
-    const auto width = static_cast<std::size_t>(width_);
-    const auto x = static_cast<std::size_t>(tile.tx % residualTiles_ * n_);
-    const auto y = static_cast<std::size_t>(tile.ty % residualTiles_ * n_);
-    for (std::size_t row = 0; row < width; ++row)
-        std::memcpy(&residualTexels_[row * width], residual.data() + (y + row) * stride + x,
-                    width * sizeof(float));
+    residuals_.copy(tile, inputs, {residualTexels_.data(), static_cast<std::size_t>(width_)});
     parameters_.residualTexture->upload({TransferFormat::red, TransferType::f32},
                                         std::as_bytes(std::span(residualTexels_)));
     const auto w = static_cast<float>(width_);

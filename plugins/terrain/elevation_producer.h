@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plugins/terrain/noise.h"
+#include "plugins/terrain/residual_source.h"
 #include "producer/gpu_tile_storage.h"
 #include "producer/tile_pass.h"
 #include "producer/tile_producer.h"
@@ -51,10 +52,6 @@ public:
     const void* taskContext() const override { return this; }
 
 private:
-    /// The residual tile that covers a tile.
-    TileId residualTile(const TileId& tile) const;
-    bool hasResidual(const TileId& tile) const;
-
     void setParent(const TileId& tile, const GpuTileStorage::Slot& slot, const TileInputs& inputs);
     void setResidual(const TileId& tile, const TileInputs& inputs);
     void setNoise(const TileId& tile);
@@ -63,7 +60,7 @@ private:
     Parameters parameters_;
     const int width_; ///< of tiles, n + 5
     const int n_;
-    int residualTiles_ = 1; ///< elevation tiles along the edge of a residual tile
+    const ResidualSource residuals_;
     TilePass pass_;
     std::shared_ptr<Texture> noiseTexture_;
     const GradientNoise gradients_;

@@ -27,6 +27,14 @@ void reportTileSize(const TileStorage& storage, const Place& reference, const st
 void reportFormat(const TileStorage& storage, const Place& reference, const std::string& found,
                   const std::string& right, Diagnostics& diagnostics);
 
+/// Whether residuals are on the CPU, of one channel, with the border of elevations, and a tile of
+/// them covers whole tiles of elevations; of a file, just those that its delta asks for. Reports
+/// "wrong-storage", "wrong-producer" or "wrong-tile-size".
+/// @param elevations storage of the elevations; `cache` is what led to it
+bool checkResiduals(const TileStorage& elevations, const Place& cache,
+                    const TileProducer& residuals, const Place& reference,
+                    Diagnostics& diagnostics);
+
 /// "24k+1, such as 97": the multiples of `step` (at least one) plus `rest`, and the nearest to
 /// `size`.
 std::string multiplesNear(int step, int rest, int size);

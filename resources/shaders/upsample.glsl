@@ -47,7 +47,7 @@ vec4 parent(ivec2 texel) {
 
 // Even texels lie on the second of four parent texels; odd ones half way between the middle two,
 // on the cubic through all four: weights (-1, 9, 9, -1)/16. Written as the mean of these two and a
-// small correction, since rounding errors of large elevations add up from level to level.
+// small correction, since rounding errors add up from level to level.
 float between(vec4 z, int texel) {
     float middle = 0.5 * (z[1] + z[2]);
     return texel % 2 == 0 ? z[1] : middle + 0.125 * (middle - 0.5 * (z[0] + z[3]));
@@ -60,6 +60,12 @@ mat4 parentBlock(ivec2 texel) {
         for (int i = 0; i < 4; ++i)
             z[j][i] = parent(texel / 2 + ivec2(i, j)).x;
     return z;
+}
+
+// The mean of the parent texels around a texel: the same from all sides.
+float around(mat4 z, ivec2 texel) {
+    int i = 1 + texel.x % 2, j = 1 + texel.y % 2;
+    return 0.25 * ((z[1][1] + z[j][i]) + (z[1][i] + z[j][1]));
 }
 
 float upsampled(mat4 z, ivec2 texel) {
@@ -135,19 +141,23 @@ void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     bool root = coarseLevelOSL.x < 0.0;
     float amplitude = abs(noiseUVLH.w);
-    float zf = 0.0;
+    // The elevation is the sum of these. Against rounding errors, too, all that is small is added up
+    // before it meets the large one.
+    float base = 0.0, detail = 0.0;
     if (!root) {
         mat4 z = parentBlock(texel);
-        zf = upsampled(z, texel);
+        base = around(z, texel);
+        detail = upsampled(z - base, texel);
 #if defined CUSTOM_RELIEF || defined SLOPE_NOISE
         if (noiseUVLH.w > 0.0) amplitude *= noiseFactor(surroundings(z, texel), 2.0 * tileWSDF.y);
 #endif
     }
 #ifdef CUSTOM_RELIEF
-    if (root) zf = rootElevation((vec2(texel) - 0.5 * (tileWSDF.x - 1.0)) * tileWSDF.y);
+    if (root) base = rootElevation((vec2(texel) - 0.5 * (tileWSDF.x - 1.0)) * tileWSDF.y);
 #endif
-    if (residualOSH.w != 0.0) zf += residualOSH.w * texelFetch(residualSampler, texel, 0).x;
-    if (amplitude != 0.0) zf += amplitude * noise(texel);
+    if (residualOSH.w != 0.0) detail += residualOSH.w * texelFetch(residualSampler, texel, 0).x;
+    if (amplitude != 0.0) detail += amplitude * noise(texel);
+    float zf = base + detail;
     float zc = root ? zf : coarseElevation(texel);
 #ifdef NO_CLAMP
     float zm = zf;

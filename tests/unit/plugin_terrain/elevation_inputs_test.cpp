@@ -248,7 +248,7 @@ TEST_CASE_FIXTURE(InputsFixture, "A producer that can't work with a storage says
 TEST_CASE_FIXTURE(TerrainFixture,
                   "Archives with producers that are not built yet load with a warning") {
     open(gpuCache(29) +
-         "<residualProducer name=\"residuals\" cache=\"x\" file=\"DEM.dat\" delta=\"2\"/>\n"
+         "<orthoCpuProducer name=\"residuals\" cache=\"x\" file=\"RGB.dat\"/>\n"
          "<elevationProducer name=\"e\" cache=\"cache\" residuals=\"residuals\" noise=\"10\">"
          "<textureLayer producer=\"x\"/></elevationProducer>\n"
          "<orthoGpuProducer name=\"o\" cache=\"x\" ortho=\"y\"/>\n");

@@ -175,6 +175,19 @@ TEST_CASE("What is wrong in a mesh file is told with its place") {
     }
 }
 
+TEST_CASE("Vertices without attributes are bounded by number") {
+    Diagnostics diagnostics;
+    const auto parse = [&](const std::string& text) {
+        return parseMesh(std::make_shared<SourceFile>("m.mesh", text), diagnostics);
+    };
+    const auto mesh = parse("0 1 0 1 0 1 points 0 1048576 0");
+    REQUIRE(mesh);
+    CHECK(mesh->vertexCount == 1048576);
+    CHECK_FALSE(parse("0 1 0 1 0 1 points 0 2147483647 0"));
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(diagnostics.all()[0].place.position().column == 22);
+}
+
 TEST_CASE("A misspelt word in a mesh file gets a suggestion") {
     Diagnostics diagnostics;
     CHECK_FALSE(parse("0 0 0 0 0 0 trianglstrip", diagnostics));

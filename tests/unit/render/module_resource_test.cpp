@@ -210,8 +210,19 @@ TEST_CASE_FIXTURE(ModuleFixture, "What is wrong with a module is told where it s
          "texture='none.png'/></module>",
          ":2:82 file-missing"},
         {"<module name='m' version='330' source='m.glsl'><uniformSubroutine name='u' "
-         "subroutine='f' stage='FRAGMENT'/></module>",
-         ":2:48 not-built-yet"},
+         "subroutine='f' stage='PIXEL'/></module>",
+         ":2:98 unknown-word"},
+        {"<module name='m' version='330' source='m.glsl'><uniformSubroutine name='u' "
+         "stage='VERTEX'/></module>",
+         ":2:48 missing-attribute"},
+        // Accepted, as the original did.
+        {"<module name='m' version='330' source='m.glsl'><uniform3fv name='u'/></module>",
+         ":2:48 unknown-element"},
+        {"<module name='m' version='330' source='m.glsl'><uniformMatrix3x name='u' "
+         "value='zero'/></module>",
+         ":2:48 unknown-element"},
+        {"<module name='m' version='330' source='m.glsl'><uniform1f name='u' x='nan'/></module>",
+         ":2:71 out-of-range"},
         {"<module name='m' version='330' source='m.glsl'><texture2D/></module>",
          ":2:48 unknown-element"},
         {"<module name='m' version='7' source='m.glsl'/>", ":2:27 glsl-compile"},
@@ -249,6 +260,62 @@ TEST_CASE_FIXTURE(ModuleFixture, "A program needs modules, and these to compile"
     CHECK(told() != "");
     CHECK_FALSE(find<Program>("", "none;"));
     CHECK(told() != "");
+}
+
+TEST_CASE_FIXTURE(ModuleFixture, "Modules choose subroutines") {
+    shader("m.glsl", "#ifdef _FRAGMENT_\nsubroutine vec4 Colour();\n"
+                     "subroutine(Colour) vec4 red() { return vec4(1, 0, 0, 1); }\n"
+                     "subroutine(Colour) vec4 blue() { return vec4(0, 0, 1, 1); }\n"
+                     "subroutine uniform Colour paint;\nlayout(location = 0) out vec4 c;\n"
+                     "void main() { c = paint(); }\n#endif\n");
+    Program* const p = program("source='m.glsl'", "<uniformSubroutine name='paint' "
+                                                  "subroutine='blue' stage='FRAGMENT'/>");
+    REQUIRE(p);
+    CHECK(draw(*p) == glm::vec4(0, 0, 1, 1));
+    CHECK(told() == "");
+    REQUIRE(program("source='m.glsl'", "<uniformSubroutine name='paint' subroutine='green' "
+                                       "stage='FRAGMENT'/>"));
+    CHECK(told() == "archive.xml:2:92 unmatched-uniform\n");
+}
+
+TEST_CASE_FIXTURE(ModuleFixture, "Infinity is a value of uniforms") {
+    shows("uniform vec2 u;", "vec4(u.x > 1e38 ? 1.0 : 0.0, u.y < -1e38 ? 1.0 : 0.0, 0, 1)");
+    Program* const p = program("source='m.glsl'", "<uniform2f name='u' x='inf' y='-inf'/>");
+    REQUIRE(p);
+    CHECK(draw(*p) == glm::vec4(1, 1, 0, 1));
+    CHECK(told() == "");
+}
+
+TEST_CASE_FIXTURE(ModuleFixture, "A program is taken from its binary, if it can be") {
+    shows("uniform vec4 u;", "u");
+    const std::string element = "<module name='m' version='330' source='m.glsl'>"
+                                "<uniform4f name='u' x='1' y='2' z='3' w='4'/></module>";
+    Program* p = find<Program>(element, "m;");
+    REQUIRE(p);
+    const auto binary = p->binary();
+    const auto write = [&](std::uint32_t format, const std::string& bytes) {
+        std::string file(sizeof format, '\0');
+        std::memcpy(file.data(), &format, sizeof format);
+        writeFile(folder / "m;.bin", file + bytes);
+    };
+    if (binary) {
+        // The file counts, not the module's text.
+        write(binary->format, binary->bytes);
+        shows("uniform vec4 u;", "vec4(0)");
+        p = find<Program>(element, "m;");
+        REQUIRE(p);
+        CHECK(draw(*p) == glm::vec4(1, 2, 3, 4));
+        CHECK(told() == "");
+    }
+    shows("uniform vec4 u;", "u * 2.0");
+    for (const char* bytes : {"", "x", "something that no driver takes"}) {
+        CAPTURE(bytes);
+        write(7, bytes);
+        p = find<Program>(element, "m;");
+        REQUIRE(p);
+        CHECK(draw(*p) == glm::vec4(2, 4, 6, 8));
+        CHECK(told().find("program-binary") != std::string::npos);
+    }
 }
 
 } // namespace terrane

@@ -74,7 +74,8 @@ TEST_CASE("a wrong attribute is told where it stands") {
         {"far below where there is no lower end", R"(sugar="-1e30")", {}, true},
         {"infinity where there is an end", R"(sugar="^inf")", {"out-of-range"}, false},
         {"no number where there is an end", R"(weight="^nan")", {"out-of-range"}, false},
-        {"infinity where there is no end", R"(angle="-inf")", {}, true},
+        {"infinity where there is no end", R"(angle="^-inf")", {"out-of-range"}, false},
+        {"more than a number can be", R"(angle="^1e999")", {"wrong-kind"}, false},
 
         {"an unknown word", R"(colour="^PINK")", {"unknown-word"}, false},
         {"a word in another case", R"(colour="^Red")", {"unknown-word"}, false},

@@ -119,6 +119,8 @@ void declareDrawing(Registry& registry) {
         .atLeast(1)
         .attribute("min", &T::min, "a word")
         .attribute("mag", &T::mag, "a word")
+        .ignored("format", "a word")
+        .ignored("type", "a word")
         .attribute("wraps", &T::wraps, "a word")
         .attribute("wrapt", &T::wrapt, "a word")
         .build([](const T& d, BuildContext& context) -> std::shared_ptr<Texture> {

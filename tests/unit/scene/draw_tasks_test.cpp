@@ -178,4 +178,116 @@ TEST_CASE_FIXTURE(DrawFixture, "drawMesh draws as many instances as it says") {
     CHECK(pixel() == Colour{255, 0, 0});
 }
 
+TEST_CASE_FIXTURE(DrawFixture, "Where a setTarget fails nothing is drawn") {
+    struct Row {
+        const char* name;
+        const char* target;
+        const char* code;
+    };
+    const Row rows[] = {
+        {"depth as a colour", "<buffer name='COLOR0' texture='depth'/>", "bad-attachment"},
+        {"no such level", "<buffer name='COLOR0' texture='image' level='9'/>", "bad-attachment"},
+        {"no such texture", "<buffer name='COLOR0' texture='none'/>", "unknown-resource"},
+        {"no such value", "<buffer name='COLOR0' texture='this.none'/>", "missing-texture"},
+        {"one with layers, one without",
+         "<buffer name='COLOR0' texture='image'/><buffer name='COLOR1' texture='layers' "
+         "layer='-1'/>",
+         "incomplete-framebuffer"},
+        {"nothing to draw into", "<buffer name='NONE' texture='image'/>", "unused-element"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.name);
+        scene.reset();
+        resources.reset();
+        diagnostics.clear();
+        loadFrame(R"(<texture2D name="image" internalformat="RGBA8" width="8" height="8"
+                       format="RGBA" type="UNSIGNED_BYTE"/>
+                     <texture2D name="depth" internalformat="DEPTH_COMPONENT24" width="8"
+                       height="8" format="DEPTH_COMPONENT" type="UNSIGNED_INT"/>
+                     <texture2DArray name="layers" internalformat="RGBA8" width="8" height="16"
+                       layers="2" format="RGBA" type="UNSIGNED_BYTE"/>)",
+                  paint("red") + "<setState><depth/></setState><setTarget>" + row.target +
+                      "</setTarget><setState clearColor='true'><clear r='0' g='0' b='1' "
+                      "a='1'/></setState>" +
+                      paint("green"));
+        draw();
+        draw();
+        REQUIRE(codes().size() == 1);
+        CHECK(codes()[0].starts_with(row.code));
+        CHECK(pixel() == Colour{255, 0, 0});
+    }
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "setTarget leaves nothing attached, and knows levels and layers") {
+    loadFrame(R"(<texture2D name="small" internalformat="RGBA8" width="4" height="4" format="RGBA"
+                   type="UNSIGNED_BYTE"/>
+                 <texture2D name="large" internalformat="RGBA8" width="8" height="8" format="RGBA"
+                   type="UNSIGNED_BYTE" min="NEAREST_MIPMAP_NEAREST"/>
+                 <texture2D name="depth" internalformat="DEPTH24_STENCIL8" width="4" height="4"
+                   format="DEPTH_STENCIL" type="UNSIGNED_INT"/>
+                 <textureCube name="cube" internalformat="RGBA8" width="4" height="24"
+                   format="RGBA" type="UNSIGNED_BYTE"/>)",
+              "<setTarget><buffer name='COLOR0' texture='small'/><buffer name='DEPTH' "
+              "texture='depth'/><buffer name='STENCIL' texture='depth'/></setTarget>"
+              "<setState drawBuffer='COLOR0' clearColor='true' clearDepth='true' "
+              "clearStencil='true'><clear depth='0' stencil='5'/></setState>"
+              // A depth of 4 x 4 that stayed here would cut what is drawn.
+              "<setTarget><buffer name='COLOR0' texture='large'/></setTarget>"
+              "<setState><depth enable='true'/></setState>" +
+                  paint("green") +
+                  "<setTarget><buffer name='COLOR0' texture='large' level='1'/></setTarget>" +
+                  paint("red") +
+                  "<setTarget><buffer name='COLOR0' texture='cube' layer='4'/></setTarget>" +
+                  paint("red"));
+    CHECK(draw());
+    checkNoDiagnostics();
+    const auto red = [&](const char* texture, const TextureRegion& at) {
+        return int(resources->get<Texture>(texture)->download(
+            at, {TransferFormat::red, TransferType::u8})[0]);
+    };
+    const auto green = [&](const char* texture, const TextureRegion& at) {
+        return int(resources->get<Texture>(texture)->download(
+            at, {TransferFormat::green, TransferType::u8})[0]);
+    };
+    CHECK(green("large", {.x = 7, .y = 7}) == 255);
+    CHECK(red("large", {.level = 1, .x = 3, .y = 3}) == 255);
+    CHECK(green("large", {.level = 1}) == 0);
+    CHECK(red("cube", {.z = 4}) == 255);
+    CHECK(red("cube", {.z = 3}) == 0);
+    const auto stencil = resources->get<Texture>("depth")->download(
+        {}, {TransferFormat::depthStencil, TransferType::u24u8});
+    CHECK(int(stencil[0]) == 5);
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "drawMesh refuses what would never end") {
+    write("many.mesh", "0 1 0 1 0 1 points 0 1048576 0");
+    loadFrame("", "<setProgram><module name=\"red\"/></setProgram>\n"
+                  "<drawMesh name='many' count='1048576'/>");
+    draw();
+    REQUIRE(codes().size() == 1);
+    CHECK(codes()[0] == "too-many 7:30");
+}
+
+TEST_CASE_FIXTURE(DrawFixture, "occlusion knows its words") {
+    struct Row {
+        const char* attributes;
+        const char* code;
+    };
+    const Row rows[] = {{"query='SAMPLES_PASSED' mode='WAIT'", ""},
+                        {"query='ANY_SAMPLES_PASSED' mode='REGION_NO_WAIT'", ""},
+                        {"query='TIME_STAMP' mode='WAIT'", "unused-attribute"},
+                        {"query='SAMPLES' mode='WAIT'", "unknown-word"},
+                        {"query='SAMPLES_PASSED' mode='LATER'", "unknown-word"},
+                        {"mode='WAIT'", "missing-attribute"}};
+    for (const Row& row : rows) {
+        CAPTURE(row.attributes);
+        scene.reset();
+        resources.reset();
+        diagnostics.clear();
+        loadFrame("", std::string("<setState><occlusion ") + row.attributes + "/></setState>");
+        const std::string told = codes().empty() ? "" : codes()[0];
+        CHECK(told.substr(0, told.find(' ')) == row.code);
+    }
+}
+
 } // namespace terrane

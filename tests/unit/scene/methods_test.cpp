@@ -132,6 +132,7 @@ TEST_CASE_FIXTURE(MethodFixture, "What can't be found is told with its place, th
         const char* name;
         const char* task;
         const char* code;
+        Colour drawn = {255, 0, 0};
     };
     const Row rows[] = {
         {"unknown node of a call", "<callMethod name=\"nobody.draw\"/>", "unknown-target"},
@@ -144,7 +145,8 @@ TEST_CASE_FIXTURE(MethodFixture, "What can't be found is told with its place, th
         {"unknown module", "<setProgram><module name=\"nothing\"/></setProgram>",
          "unknown-resource"},
         {"unknown texture", "<setTarget><buffer name=\"COLOR0\" texture=\"nothing\"/></setTarget>",
-         "unknown-resource"},
+         "unknown-resource",
+         {0, 0, 0}}, // not on the screen, where it does not belong
         {"method that calls itself", "<callMethod name=\"camera.draw\"/>", "cycle"},
     };
     for (const Row& row : rows) {
@@ -155,7 +157,7 @@ TEST_CASE_FIXTURE(MethodFixture, "What can't be found is told with its place, th
         loadFrame(std::string("  ") + row.task +
                   "\n<setProgram><module name=\"red\"/></setProgram><drawMesh name=\"quad\"/>");
         CHECK(draw());
-        CHECK(pixel() == Colour{255, 0, 0});
+        CHECK(pixel() == row.drawn);
         REQUIRE(!codes().empty());
         CHECK(codes().front().starts_with(row.code));
         CHECK(diagnostics.errors() >= 1);

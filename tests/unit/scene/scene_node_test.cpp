@@ -135,4 +135,30 @@ TEST_CASE_FIXTURE(SceneFixture, "A node is invisible only when none of its box c
     CHECK(culled > 100);
 }
 
+TEST_CASE_FIXTURE(SceneFixture, "Nodes used several times at each level are counted, and bounded") {
+    std::string entries = "<node name='n0'/>\n";
+    for (int i = 1; i <= 30; ++i) {
+        const std::string below = "<node value='n" + std::to_string(i - 1) + "'/>";
+        entries += "<node name='n" + std::to_string(i) + "'>" + below + below + "</node>\n";
+    }
+    load(entries + "<node name='scene'><node value='n30'/></node>");
+    CHECK(scene->root()->size <= 100000);
+    CHECK(scene->nodes("n0").size() <= 100000);
+    scene->update(0, 0);
+    // The first that is too much has its place; others follow from it.
+    REQUIRE_FALSE(codes().empty());
+    CHECK(codes()[0] == "too-many 18:37"); // twice n15, of 65,535 nodes, in n16
+    diagnostics.clear();
+}
+
+TEST_CASE_FIXTURE(SceneFixture, "Places and angles are finite, values need not be") {
+    load("<node name='scene'>\n<translate x='inf'/>\n<rotatex angle='-inf'/>\n"
+         "<translate z='1e999'/>\n<uniform2f id='far' x='inf' y='1'/>\n</node>");
+    REQUIRE(codes().size() == 3);
+    CHECK(codes()[0] == "out-of-range 3:15");
+    CHECK(codes()[1] == "out-of-range 4:17");
+    CHECK(codes()[2].ends_with(" 5:15"));
+    diagnostics.clear();
+}
+
 } // namespace terrane

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/message_log.h"
+
+namespace terrane {
+
+namespace {
+
+/// What only tells how this program differs from the original would cover pictures that the
+/// original drew clean.
+bool isRemark(const Diagnostic& d) {
+    return d.severity == Severity::note || d.code == "not-built-yet" || d.code == "legacy-glsl";
+}
+
+// Folders would leave no room for the message.
+std::string lineOf(const Diagnostic& d) {
+    std::string text = d.message;
+    if (d.place) {
+        const std::string place = d.place.toString();
+        text = place.substr(place.find_last_of('/') + 1) + ": " + text;
+    }
+    return text.substr(0, text.find('\n'));
+}
+
+} // namespace
+
+void MessageLog::update(const Diagnostics& diagnostics) {
+    const std::size_t problems = diagnostics.errors() + diagnostics.warnings();
+    if (problems == problems_) return;
+    problems_ = problems;
+    const auto all = diagnostics.all();
+    if (all.size() < seen_) seen_ = 0; // they were cleared
+    for (; seen_ < all.size(); ++seen_) {
+        const Diagnostic& d = all[seen_];
+        lines_.push_back({isRemark(d) ? Severity::note : d.severity, lineOf(d)});
+        if (lines_.size() > kMostLines) lines_.pop_front();
+        visible = visible || !isRemark(d);
+    }
+}
+
+} // namespace terrane

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/text_overlay.h"
+
+#include "render/framebuffer.h"
+#include "scene/scene_manager.h"
+
+#include <utility>
+
+namespace terrane {
+
+TextTask::TextTask(const TextDescription& description, SceneManager& scene)
+    : FrameTask("ShowInfo")
+    , scene_(scene)
+    , font_(description.font)
+    , program_(description.fontProgram)
+    , sampler_(program_->find("font"))
+    , origin_(*description.x, *description.y)
+    , maxLines_(*description.maxLines)
+    , fontSize_(*description.fontSize)
+    , batch_(scene.context()) {
+    if (!sampler_.active()) {
+        scene.resources().diagnostics().warning("missing-sampler", description.fontProgram.place,
+                                                "program '" + program_->name() +
+                                                    "' has no sampler 'font' for the letters");
+    }
+}
+
+bool TextTask::run() {
+    Framebuffer& framebuffer = *scene_.drawState().framebuffer;
+    const PipelineState::Rectangle& area = framebuffer.state.viewport;
+    if (fontSize_ <= 0) fontSize_ = font_->tileHeight();
+    batch_.begin({area.width, area.height});
+    pen_ = firstLine(area.height);
+    write();
+    if (batch_.empty()) return true;
+    sampler_.set(font_->texture());
+    auto& blend = framebuffer.state.blend;
+    for (auto& buffer : blend) {
+        buffer = {.enabled = true,
+                  .source = BlendFactor::sourceAlpha,
+                  .destination = BlendFactor::oneMinusSourceAlpha,
+                  .alphaSource = BlendFactor::sourceAlpha,
+                  .alphaDestination = BlendFactor::oneMinusSourceAlpha};
+    }
+    // Tiles may overlap, and must not hide one another.
+    const bool writesDepth = std::exchange(framebuffer.state.write.depth, false);
+    framebuffer.use();
+    program_->use();
+    batch_.draw();
+    framebuffer.state.write.depth = writesDepth;
+    for (auto& buffer : blend)
+        buffer.enabled = false; // as archives of the original expect
+    return true;
+}
+
+float TextTask::firstLine(int height) const {
+    if (origin_.y > 0) return float(height - origin_.y) - fontSize_;
+    return float(-origin_.y) + float(maxLines_ - 1) * fontSize_;
+}
+
+void TextTask::line(std::string_view text, const glm::u8vec4& colour) {
+    batch_.add(*font_, text, {float(origin_.x), pen_}, fontSize_, colour);
+    pen_ -= fontSize_;
+}
+
+} // namespace terrane

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugins/terrain/declare.h"
+#include "plugins/terrain/residual_producer.h"
+#include "plugins/terrain/storage_checks.h"
+#include "resource/build_context.h"
+#include "resource/manager.h"
+#include "resource/registry.h"
+
+namespace terrane {
+
+namespace {
+
+struct ResidualDescription : ElementDescription {
+    Ref<TileCache> cache;
+    Attr<DataFile> file;
+    Attr<int> delta = 0;
+    Attr<float> scale = 1.0f;
+};
+
+// What can be told without reading tiles.
+void reportFaults(const ResidualFile& file, const ResidualDescription& d,
+                  Diagnostics& diagnostics) {
+    const ResidualFile::Faults faults = file.faults();
+    if (faults.count == 0) return;
+    const TileId& first = faults.first;
+    diagnostics.error("damaged-file", d.file.place,
+                      "'" + d.file->name + "' is damaged: " + std::to_string(faults.count) +
+                          " of its " + std::to_string(file.tiles()) +
+                          " tiles lie outside of the file; the first is tile " +
+                          std::to_string(first.level) + "/" + std::to_string(first.tx) + "/" +
+                          std::to_string(first.ty),
+                      "the whole file; without it, the ground has no residuals there");
+}
+
+// A file whose header makes no sense is none: the ground has no residuals, but there is ground.
+void parse(const ResidualDescription& d, ResidualPyramid::Parameters& parameters,
+           Diagnostics& diagnostics) {
+    std::string problem;
+    parameters.file = ResidualFile::parse(parameters.mapped->bytes(), problem);
+    if (parameters.file) return reportFaults(*parameters.file, d, diagnostics);
+    diagnostics.error("damaged-file", d.file.place,
+                      "'" + d.file->name + "' is damaged or no residual file: " + problem,
+                      "a DEM.dat; without it, the ground has no residuals");
+}
+
+bool open(const ResidualDescription& d, BuildContext& context,
+          ResidualPyramid::Parameters& parameters) {
+    const auto path = context.findFile(d.file->name, d.file.place);
+    if (!path) return false;
+    parameters.mapped = MappedFile::open(*path);
+    if (parameters.mapped) return parse(d, parameters, context.diagnostics()), true;
+    context.diagnostics().error("file-unreadable", d.file.place,
+                                "can't read '" + d.file->name + "'");
+    return false;
+}
+
+bool checkStorage(const ResidualDescription& d, const CpuFloatTileStorage& storage,
+                  const ResidualFile* file, Diagnostics& diagnostics) {
+    if (storage.channels() != 1) {
+        reportFormat(storage, d.cache.place,
+                     "residuals can't be stored in " + std::to_string(storage.channels()) +
+                         " channels",
+                     "1 channel", diagnostics);
+        return false;
+    }
+    const int right = file ? file->header().tileSize + ResidualFile::kRest : storage.tileSize();
+    if (storage.tileSize() == right) return true;
+    reportTileSize(storage, d.cache.place, "the residuals of '" + d.file->name + "'",
+                   std::to_string(right) + ", the file's " +
+                       std::to_string(file->header().tileSize) + " + 5",
+                   diagnostics);
+    return false;
+}
+
+// Nothing when it is wrong.
+std::optional<int> deltaOf(const ResidualDescription& d, const ResidualFile* file,
+                           Diagnostics& diagnostics) {
+    if (!file) return 0;
+    const ResidualHeader& header = file->header();
+    if (header.rootLevel > 0) { // terrain reference 1.7
+        if (d.delta != 0)
+            diagnostics.warning("unused-attribute", d.delta.place,
+                                "'" + d.file->name + "' is a sub-pyramid: its delta is 0");
+        return 0;
+    }
+    if (d.delta <= header.minLevel) return d.delta;
+    diagnostics.error("out-of-range", d.delta.place,
+                      "delta is " + std::to_string(*d.delta) + ", but '" + d.file->name +
+                          "' has but " + std::to_string(header.minLevel) + " smaller levels",
+                      "0 to " + std::to_string(header.minLevel));
+    return std::nullopt;
+}
+
+std::unique_ptr<ResidualPyramid> makePyramid(const ResidualDescription& d, BuildContext& context);
+
+// Nested files refine parts of this one: their tiles must be as large.
+void addParts(const ResidualDescription& d, BuildContext& context,
+              ResidualPyramid::Parameters& parameters) {
+    for (const Child& child : d.children) {
+        const auto* const nested = child.as<ResidualDescription>();
+        auto part = makePyramid(*nested, context);
+        if (!part || !part->file() || !parameters.file) continue;
+        const int size = part->file()->header().tileSize;
+        const int right = parameters.file->header().tileSize;
+        if (size == right) {
+            parameters.parts.push_back(std::move(part));
+            continue;
+        }
+        context.diagnostics().error("wrong-tile-size", nested->file.place,
+                                    "'" + nested->file->name + "' has tiles of " +
+                                        std::to_string(size) + " and can't refine '" +
+                                        d.file->name + "'",
+                                    "a file with tiles of " + std::to_string(right));
+    }
+}
+
+std::unique_ptr<ResidualPyramid> makePyramid(const ResidualDescription& d, BuildContext& context) {
+    Diagnostics& diagnostics = context.diagnostics();
+    ResidualPyramid::Parameters parameters;
+    parameters.name = d.file->name;
+    parameters.place = d.file.place;
+    parameters.scale = d.scale;
+    const bool found = d.file->name.empty() || open(d, context, parameters);
+    const ResidualFile* const file = parameters.file ? &*parameters.file : nullptr;
+
+    const auto* const storage =
+        d.cache ? cpuFloatStorage(*d.cache, d.cache.place, diagnostics) : nullptr;
+    const bool fits = storage && checkStorage(d, *storage, file, diagnostics);
+    const auto delta = deltaOf(d, file, diagnostics);
+    addParts(d, context, parameters);
+    if (!found || !fits || !delta) return nullptr;
+    parameters.delta = *delta;
+    return std::make_unique<ResidualPyramid>(std::move(parameters),
+                                             context.manager().diagnostics());
+}
+
+std::shared_ptr<ResidualProducer> buildResiduals(const ResidualDescription& d,
+                                                 BuildContext& context) {
+    auto pyramid = makePyramid(d, context);
+    if (!pyramid) return nullptr;
+    return makeProducer<ResidualProducer>(context.name(), d.cache.shared(), std::move(pyramid));
+}
+
+template <class Builder>
+void declareAttributes(Builder& builder) {
+    using D = ResidualDescription;
+    builder
+        .attribute("cache", &D::cache,
+                   "where the tiles are; a cpuFloatTileStorage with one channel, tileSize that of "
+                   "the file + 5")
+        .required()
+        .attribute("file", &D::file, "the pyramid, DEM.dat; without it, residuals are zero")
+        .attribute("delta", &D::delta,
+                   "level of the file that is the root tile; each doubles the tile size of the "
+                   "elevations")
+        .atLeast(0)
+        .attribute("scale", &D::scale, "multiplies the scale of the file");
+}
+
+} // namespace
+
+void declareResidualProducer(Registry& registry) {
+    // The original knew nested ones by the first sixteen characters of their tags.
+    auto part = registry.element<ResidualDescription>(
+        "residualProducer", "A file that refines a part of the one around it.");
+    part.prefix().ignored("name", "ignored");
+    declareAttributes(part);
+    part.child(part.declaration());
+
+    auto residuals = registry.resource<ResidualProducer, ResidualDescription, TileProducer>(
+        "residualProducer",
+        "Elevations from a file: of the root tile, and for the others what is to be added to the "
+        "level above.");
+    declareAttributes(residuals);
+    residuals.child(part.declaration()).build(buildResiduals);
+}
+
+} // namespace terrane
