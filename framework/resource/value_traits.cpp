@@ -216,7 +216,7 @@ int readWord(const AttributeText& text, const AttributeDeclaration& a, Diagnosti
 
 bool readWords(const AttributeText& text, const AttributeDeclaration& a, std::vector<int>& indices,
                Diagnostics& diagnostics) {
-    bool good = true;
+    bool good = !text.text.empty() || readWord(text, a, diagnostics) >= 0;
     ValueWalker walker(text.valuePlace);
     for (const std::string_view piece : split(text.text, ',')) {
         const Place place = walker.place();
