@@ -5,10 +5,10 @@ namespace terrane {
 
 namespace {
 
-/// What only tells how this program differs from the original would cover pictures that the
-/// original drew clean.
+/// What the original did not know or say would cover pictures that it drew clean.
 bool isRemark(const Diagnostic& d) {
-    return d.severity == Severity::note || d.code == "not-built-yet" || d.code == "legacy-glsl";
+    return d.severity == Severity::note || d.code == "not-built-yet" || d.code == "legacy-glsl" ||
+           d.code == "sampler-unset";
 }
 
 // Folders would leave no room for the message.
