@@ -12,7 +12,9 @@ find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
-pkg_check_modules(osmesa IMPORTED_TARGET osmesa) # newer versions of Mesa have none: then it is EGL
+if(TERRANE_OSMESA) # newer versions of Mesa have none: then it is EGL that draws without a window
+    pkg_check_modules(osmesa IMPORTED_TARGET osmesa)
+endif()
 pkg_check_modules(glfw REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 

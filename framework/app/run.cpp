@@ -56,10 +56,12 @@ void tellSoftware(Player& player, const RunOptions& options, std::ostream& err) 
         err << "drawn in software, without anisotropic filtering (--max-anisotropy N overrides)\n";
 }
 
-/// What an archive is called: "mountains" of archives/mountains/, "helloworld" of helloworld.xml.
+/// What an archive is called: "mountains" of archives/mountains/, with or without archive.xml;
+/// "helloworld" of helloworld.xml.
 std::string nameOf(const fs::path& archive) {
-    const fs::path full = fs::absolute(archive).lexically_normal();
-    return (full.has_filename() ? full : full.parent_path()).stem().string();
+    fs::path full = fs::absolute(archive).lexically_normal();
+    if (!full.has_filename() || full.filename() == "archive.xml") full = full.parent_path();
+    return full.stem().string();
 }
 
 bool isInteractive(const RunOptions& options) {

@@ -32,6 +32,9 @@ public:
     /// Makes this the calling thread's current context (cheap when it already is).
     void makeCurrent();
     bool isCurrent() const;
+    /// Leaves the thread without a current context if this is it, so that another thread may use
+    /// this one, or destroy it. Destructors of subclasses call it, too, while release() works.
+    void leave();
     /// Where it comes from: "OSMesa", "EGL", "GLFW".
     virtual const char* system() const = 0;
     /// Waits until everything that was sent has been done.
@@ -66,8 +69,6 @@ protected:
     /// Tell the system that the context is the thread's current one, or that none is.
     virtual bool bind() = 0;
     virtual void release() = 0;
-    /// To be called by destructors, while release() still works.
-    void leave();
 
 private:
     Diagnostics& diagnostics_;

@@ -5,6 +5,7 @@
 #include <glad/gl.h>
 
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace terrane;
@@ -77,4 +78,26 @@ TEST_CASE("contexts of all systems stand side by side in one thread") {
         contexts[i].reset();
     }
     CHECK(diagnostics.all().empty());
+}
+
+TEST_CASE("a context goes from thread to thread, to one at a time") {
+    for (const System& system : systems()) {
+        CAPTURE(system.name);
+        Diagnostics diagnostics;
+        auto context = createHeadlessContext(diagnostics, {.debug = true}, system.kind);
+        REQUIRE(context);
+        context->gl().ClearColor(0.5F, 0, 0, 1);
+        context->leave();
+        CHECK(!context->isCurrent());
+        float colour = 0;
+        std::thread([&] {
+            context->makeCurrent();
+            colour = clearColour(*context);
+            context->leave();
+        }).join();
+        CHECK(colour == 0.5F);
+        context->makeCurrent();
+        CHECK(clearColour(*context) == 0.5F);
+        CHECK(diagnostics.all().empty());
+    }
 }

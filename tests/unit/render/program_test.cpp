@@ -2,6 +2,7 @@
 #include "program_fixture.h"
 
 #include "render/buffer.h"
+#include "render/render_target.h"
 #include "render/state_tracker.h"
 
 #include <glad/gl.h>
@@ -90,6 +91,9 @@ void main() { gl_Position = p; doubled = p.xy * 2.0; sum = p.x + p.y; }
         FeedbackMode mode;
         std::vector<float> first, second;
     };
+    // Not every context has a framebuffer of its own.
+    const RenderTarget target(*context, 1, 1);
+    target.framebuffer().use();
     const Row rows[] = {{FeedbackMode::interleaved, {-2, -2, -2, 2, -2, 0}, {}},
                         {FeedbackMode::separate, {-2, -2, 2, -2}, {-2, 0}}};
     for (const Row& row : rows) {
