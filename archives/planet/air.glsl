@@ -33,7 +33,7 @@ vec3 sunlightAt(float height, float cosine) {
 
 // What the whole sky sheds on level ground; some of it even after sunset.
 vec3 skylightAt(float cosine) {
-    return vec3(0.55, 0.85, 1.35) * smoothstep(-0.20, 0.45, cosine) + vec3(0.012, 0.016, 0.028);
+    return vec3(0.55, 0.85, 1.35) * smoothstep(-0.20, 0.45, cosine) + vec3(0.06, 0.08, 0.13);
 }
 
 // Air on the way from the eye, seen from the planet's centre, to eye + way.

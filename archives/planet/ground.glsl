@@ -35,7 +35,8 @@ void main() {
     vec3 p = vec3(gl_Position.x * screenToCamera[0][0], gl_Position.y * screenToCamera[1][1],
                   -gl_Position.w);
     way = mat3(cameraToWorld) * p;
-    throughAir(cameraToWorld[3].xyz, way, 6, airLight, airLeft);
+    int steps = int(clamp(log2(length(way) / 1000.0), 1.0, 6.0));
+    throughAir(cameraToWorld[3].xyz, way, steps, airLight, airLeft);
 }
 #endif
 
@@ -52,10 +53,12 @@ in float blend;
 in vec3 airLight, airLeft;
 layout(location = 0) out vec4 colour;
 
-float hash(vec3 p) {
-    p = fract(p * vec3(0.1031, 0.1030, 0.0973));
-    p += dot(p, p.yzx + 33.33);
-    return fract((p.x + p.y) * p.z);
+float hash(vec3 cell) {
+    uvec3 v = uvec3(ivec3(cell)) * uvec3(0x8da6b343u, 0xd8163841u, 0xcb1ab31fu);
+    uint h = v.x ^ v.y ^ v.z;
+    h = (h ^ h >> 15u) * 0x2c1b3c6du;
+    h = (h ^ h >> 12u) * 0x297a2d39u;
+    return float((h ^ h >> 15u) >> 8u) / 16777216.0;
 }
 
 // Smooth noise in [0,1].
@@ -75,10 +78,10 @@ float grain(float level) {
     float depth = level - deformation.offset.w;
     vec2 tile = round((deformation.offset.xy + deformation.radius) / deformation.offset.z);
     vec2 first = mod(tile * exp2(depth), 4096.0);
-    vec2 p = uv * exp2(depth);
+    vec2 p = fract(first) + uv * exp2(depth);
     vec2 i = floor(p), f = p - i;
     f = f * f * (3.0 - 2.0 * f);
-    i += first;
+    i += floor(first);
     vec2 x = vec2(0.0, 1.0);
     float low = mix(hash(vec3(i, level)), hash(vec3(i + x.yx, level)), f.x);
     float high = mix(hash(vec3(i + x.xy, level)), hash(vec3(i + x.yy, level)), f.x);
@@ -88,6 +91,16 @@ float grain(float level) {
 // What of a pattern pixels can show: 1 of patches that are larger, 0 of smaller ones.
 float shown(float size) {
     return clamp(1.5 - 0.004 * length(way) / size, 0.0, 1.0);
+}
+
+// Tussocks and stones of several sizes, in about [-0.5,0.5].
+float stones() {
+    float sum = 0.0;
+    for (float level = 18.0; level < 29.0; level += 2.0) {
+        float part = shown(4.0 * deformation.radius / exp2(level + 1.0));
+        if (part > 0.0) sum += part * (grain(level) - 0.5);
+    }
+    return 0.45 * sum;
 }
 
 struct Place {
@@ -113,7 +126,7 @@ Place placeAt(vec3 up, float height, float slope) {
 }
 
 vec3 land(Place p) {
-    vec3 desert = mix(vec3(0.36, 0.25, 0.13), vec3(0.27, 0.15, 0.075), 0.5 + p.patchy);
+    vec3 desert = mix(vec3(0.31, 0.205, 0.10), vec3(0.22, 0.12, 0.058), 0.5 + p.patchy);
     vec3 steppe = mix(vec3(0.165, 0.145, 0.062), vec3(0.115, 0.115, 0.045), 0.5 + p.patchy);
     vec3 forest = mix(vec3(0.018, 0.043, 0.012), vec3(0.042, 0.068, 0.020), 0.5 + p.patchy);
     vec3 tundra = vec3(0.115, 0.108, 0.078);
@@ -123,8 +136,7 @@ vec3 land(Place p) {
     c = mix(c, tundra, smoothstep(0.52, 0.72, p.cold));
     c = mix(c, vec3(0.30, 0.26, 0.18), 1.0 - smoothstep(2.0, 12.0, p.height + 8.0 * p.patchy)); // beach
     c = mix(c, rock, 1.0 - smoothstep(0.74, 0.90, p.slope + 0.15 * p.patchy));
-    float fine = 0.5 * (grain(20.0) - 0.5) * shown(12.0) + 0.5 * (grain(23.0) - 0.5) * shown(1.5);
-    c *= 1.0 + fine;
+    c *= 1.0 + stones();
     float snow = smoothstep(0.76, 0.90, p.cold) * smoothstep(0.50, 0.72, p.slope + 0.1 * p.patchy);
     return mix(c, vec3(0.80, 0.84, 0.90), snow);
 }

@@ -77,12 +77,14 @@ float rootElevation(vec2 place) {
 }
 
 float noiseFactor(mat3 z, float metres) {
-    float h = z[1][1];
     vec2 slope = vec2(z[1][2] - z[1][0], z[2][1] - z[0][1]) / (2.0 * metres);
-    float high = smoothstep(100.0, 2400.0, h);
-    float steep = smoothstep(0.05, 0.6, length(slope));
-    float wide = smoothstep(3000.0, 60000.0, metres); // whole regions: coasts, valleys
-    return 0.10 + 0.30 * wide + 0.70 * high + (0.25 + 0.35 * high) * steep;
+    float crest = z[1][1] - 0.25 * (z[0][1] + z[2][1] + (z[1][0] + z[1][2]));
+    float steep = smoothstep(0.05, 0.7, length(slope));
+    float high = smoothstep(100.0, 2400.0, z[1][1]);
+    // Regions are rough where they are high, hillsides where they are steep already.
+    float region = 0.35 + 0.75 * high;
+    float hillside = 0.10 + 0.16 * high + 0.75 * steep + clamp(1.4 * crest / metres, -0.1, 0.4);
+    return mix(hillside, region, smoothstep(400.0, 5000.0, metres));
 }
 
 #endif
