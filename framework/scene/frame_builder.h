@@ -18,6 +18,7 @@ public:
     void add(const std::shared_ptr<Task>& task) {
         settle();
         tail_ = graph_.addAfter(task, tail_);
+        if (forks_ > 0 && task->kind() == Task::Kind::gpu) keepDrawOrder();
     }
 
     /// A task, such as one that makes a tile, that has to be done before whatever is added next. It
@@ -32,13 +33,15 @@ public:
         graph_.addDependency(gate_, node);
     }
 
-    /// Branches without order among them: begin, then for each branch branch(), then end. They
-    /// nest.
+    /// Branches without order among them: begin, then for each branch endBranch(), then end. They
+    /// nest. Only tasks of the GL thread stay in the order in which they were added: program and
+    /// state that one branch sets must not be those that another draws with.
     struct Fork {
         TaskGraph::Node start, end;
     };
     Fork beginFork() {
         settle();
+        if (forks_++ == 0) lastDraw_ = {};
         return {tail_, graph_.join()};
     }
     void endBranch(const Fork& fork) {
@@ -49,6 +52,7 @@ public:
     void endFork(const Fork& fork) {
         graph_.addDependency(fork.end, fork.start);
         tail_ = fork.end;
+        --forks_;
     }
 
 private:
@@ -57,9 +61,16 @@ private:
         gate_ = {};
     }
 
+    void keepDrawOrder() {
+        if (lastDraw_ != tail_) graph_.addDependency(tail_, lastDraw_);
+        lastDraw_ = tail_;
+    }
+
     TaskGraph& graph_;
     TaskGraph::Node tail_;
-    TaskGraph::Node gate_; ///< waits for the tail and for what was required since
+    TaskGraph::Node gate_;     ///< waits for the tail and for what was required since
+    TaskGraph::Node lastDraw_; ///< of the GL thread, since the outermost fork began
+    int forks_ = 0;
 };
 
 } // namespace terrane

@@ -8,6 +8,7 @@
 #include "render/program.h"
 #include "render/program_resource.h"
 #include "render/texture_resource.h"
+#include "render/transform_feedback.h"
 
 #include <cstring>
 
@@ -316,6 +317,37 @@ TEST_CASE_FIXTURE(ModuleFixture, "A program is taken from its binary, if it can 
         CHECK(draw(*p) == glm::vec4(2, 4, 6, 8));
         CHECK(told().find("program-binary") != std::string::npos);
     }
+}
+
+TEST_CASE_FIXTURE(ModuleFixture, "A module says what is captured") {
+    shader("m.glsl", "#ifdef _VERTEX_\nlayout(location = 0) in vec4 p; out vec2 twice;\n"
+                     "void main() { gl_Position = p; twice = 2.0 * p.xy; }\n#endif\n");
+    for (const char* mode : {"interleaved", "separate"}) {
+        CAPTURE(mode);
+        Program* const p =
+            find<Program>("<module name='m' version='330' source='m.glsl' feedback='" +
+                              std::string(mode) + "' varyings='twice'/>",
+                          "m;");
+        REQUIRE(p);
+        CHECK(p->capturesFeedback());
+        const auto captured = std::make_shared<Buffer>(*context);
+        captured->allocate(24);
+        TransformFeedback feedback(*context);
+        feedback.setBuffer(0, captured);
+        const Mesh quad(*context, makeQuadMesh());
+        p->use();
+        feedback.begin(PrimitiveMode::triangles, false);
+        quad.draw({.count = 3});
+        feedback.end();
+        std::array<float, 6> numbers{};
+        captured->read(0, std::as_writable_bytes(std::span(numbers)));
+        CHECK(numbers == std::array<float, 6>{-2, -2, 2, -2, -2, 2});
+        CHECK(told() == "");
+    }
+    CHECK_FALSE(find<Program>("<module name='m' version='330' source='m.glsl' "
+                              "feedback='interleaved' varyings='none'/>",
+                              "m;"));
+    CHECK(told().find("glsl-link") != std::string::npos);
 }
 
 } // namespace terrane

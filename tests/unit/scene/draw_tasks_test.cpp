@@ -290,4 +290,29 @@ TEST_CASE_FIXTURE(DrawFixture, "occlusion knows its words") {
     }
 }
 
+TEST_CASE_FIXTURE(DrawFixture, "Nodes of a parallel loop do not draw with one another's state") {
+    // Each node paints a column of its own: a viewport, a program, a draw.
+    std::string nodes, methods;
+    for (int i = 0; i < kSize; ++i) {
+        const std::string name = "n" + std::to_string(i);
+        methods += "<sequence name='" + name + "'><setState><viewport x='" + std::to_string(i) +
+                   "' y='0' width='1' height='16'/></setState>" +
+                   paint(i % 3 == 0 ? "green" : "red") + "</sequence>\n";
+        nodes += "<node flags='object'><method id='draw' value='" + name + "'/></node>";
+    }
+    load(module("red", R"(x="1" w="1")") + module("green", R"(y="1" w="1")") + methods +
+         "<sequence name='frame'><foreach var='o' flag='object' parallel='true'><callMethod "
+         "name='$o.draw'/></foreach></sequence><node name='scene'><node flags='camera'><method "
+         "id='draw' value='frame'/></node>" +
+         nodes + "</node>");
+    for (int frame = 0; frame < 3; ++frame) {
+        CHECK(draw());
+        for (int i = 0; i < kSize; ++i) {
+            CAPTURE(i);
+            CHECK(pixel(i, 0) == (i % 3 == 0 ? Colour{0, 255, 0} : Colour{255, 0, 0}));
+        }
+    }
+    checkNoDiagnostics();
+}
+
 } // namespace terrane
