@@ -25,10 +25,10 @@ void reportFaults(const ResidualFile& file, const ResidualDescription& d,
     const TileId& first = faults.first;
     diagnostics.error("damaged-file", d.file.place,
                       "'" + d.file->name + "' is damaged: " + std::to_string(faults.count) +
-                          " of its " + std::to_string(file.tiles()) +
-                          " tiles lie outside of the file; the first is tile " +
-                          std::to_string(first.level) + "/" + std::to_string(first.tx) + "/" +
-                          std::to_string(first.ty),
+                          " of its " + std::to_string(file.tiles()) + " tiles " +
+                          (faults.count == 1 ? "lies" : "lie") +
+                          " outside of the file, first tile " + std::to_string(first.level) + "/" +
+                          std::to_string(first.tx) + "/" + std::to_string(first.ty),
                       "the whole file; without it, the ground has no residuals there");
 }
 
@@ -86,7 +86,7 @@ std::optional<int> deltaOf(const ResidualDescription& d, const ResidualFile* fil
     if (d.delta <= header.minLevel) return d.delta;
     diagnostics.error("out-of-range", d.delta.place,
                       "delta is " + std::to_string(*d.delta) + ", but '" + d.file->name +
-                          "' has but " + std::to_string(header.minLevel) + " smaller levels",
+                          "' allows " + std::to_string(header.minLevel) + " at most",
                       "0 to " + std::to_string(header.minLevel));
     return std::nullopt;
 }
