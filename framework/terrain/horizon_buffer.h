@@ -11,9 +11,10 @@ namespace terrane {
 /// The outline of the terrain seen so far: for each of 256 directions in front of the camera the
 /// slope below which everything is hidden. Boxes must come front to back. A column stands for the
 /// whole interval of directions up to the next, is raised only by boxes that fill it, and must be
-/// high enough in all columns that a box touches: on a flat terrain no box with a visible point is
-/// ever called hidden. On a sphere, where slopes ignore the curvature, that holds up to about
-/// height/radius. (Terrain reference 3.3, which rounds columns less carefully.)
+/// high enough in all columns that a box touches: no box with a visible point is ever called
+/// hidden. That holds on a sphere, too: seen from the local plane, whose straight lines are great
+/// circles, lines of sight bend upwards, so that they are lower above an occluder than the straight
+/// line to what is behind it. (Terrain reference 3.3, which rounds columns less carefully.)
 class HorizonBuffer {
 public:
     static constexpr int kColumns = 256;

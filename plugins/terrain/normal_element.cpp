@@ -10,12 +10,16 @@ namespace terrane {
 
 namespace {
 
+enum class Shape { none, sphere };
+
+const Words<Shape> kShapeWords{{"none", Shape::none}, {"sphere", Shape::sphere}};
+
 struct NormalDescription : ElementDescription {
     Ref<TileCache> cache;
     Ref<TileProducer> elevations;
     Ref<Program> normalProg{"normalShader;"};
     Attr<int> gridSize = 24;
-    Attr<std::string> deform = "none";
+    Attr<Shape> deform = Shape::none;
 };
 
 bool checkFormat(const GpuTileStorage& storage, const Place& reference, Diagnostics& diagnostics) {
@@ -68,7 +72,7 @@ std::shared_ptr<NormalProducer> buildNormals(const NormalDescription& d, BuildCo
         .elevations = d.elevations.shared(),
         .program = d.normalProg.shared(),
         .gridSize = d.gridSize,
-        .sphere = *d.deform == "sphere",
+        .sphere = *d.deform == Shape::sphere,
         .target = context.load<Texture>(target, d.place).shared(),
     };
     if (!parameters.target) return nullptr;
@@ -92,7 +96,8 @@ void declareNormalProducer(Registry& registry) {
         .attribute("gridSize", &D::gridSize, "quads along an edge of the mesh of a terrain quad")
         .atLeast(1)
         .atMost(16384)
-        .attribute("deform", &D::deform, "'sphere' for a face of a planet")
+        .attribute("deform", &D::deform, "'sphere' for a face of a planet", kShapeWords)
+        .otherWordsMeanDefault()
         .build(buildNormals);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/horizon_buffer.h"
+#include "terrain/spherical_deformation.h"
 #include "terrain/terrain_node.h"
 
 #include "terrain/random_camera.h"
@@ -7,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -73,20 +76,34 @@ private:
 
 // Is a point of the ground seen beyond doubt? The line of sight must keep clear of the hills by
 // more than what marching in steps of 4 m may miss.
-bool isClearlySeen(const glm::dmat4& toScreen, const glm::dvec3& camera, const glm::dvec3& p) {
+bool isClearlySeen(const Deformation& deformation, const glm::dmat4& toScreen,
+                   const glm::dvec3& camera, const glm::dvec3& p) {
     const glm::dvec4 c = toScreen * glm::dvec4(p, 1);
     if (!(c.w > std::abs(c.x) && c.w > std::abs(c.y) && c.w + c.z > 0)) return false;
     const int steps = static_cast<int>(glm::length(p - camera) / 4) + 1;
     for (int i = 0; i + 1 < steps; ++i) {
-        const glm::dvec3 q = glm::mix(camera, p, double(i) / steps);
+        const glm::dvec3 q = deformation.deformedToLocal(glm::mix(camera, p, double(i) / steps));
         if (Hills::height(q.x, q.y) > q.z - 0.1) return false;
     }
     return true;
 }
 
-TerrainNode::Parameters hillParameters(bool culling) {
+struct Shape {
+    const char* name;
+    std::shared_ptr<const Deformation> deformation;
+};
+
+// The ball is so small that its curvature matters from one hill to the next.
+std::vector<Shape> shapes() {
+    return {{"flat", std::make_shared<Deformation>()},
+            {"ball", std::make_shared<SphericalDeformation>(kSize)}};
+}
+
+TerrainNode::Parameters hillParameters(bool culling,
+                                       std::shared_ptr<const Deformation> deformation = nullptr) {
     TerrainNode::Parameters p;
     p.size = kSize;
+    p.deformation = std::move(deformation);
     p.zmin = -400;
     p.zmax = 400;
     p.maxLevel = kLevels;
@@ -104,45 +121,53 @@ int visibleLeaves(const TerrainNode& terrain) {
 
 TEST_CASE("Horizon culling hides no ground that is seen, and hides much that is not") {
     const Hills hills;
-    Random random(21);
-    TerrainNode terrain(hillParameters(true));
-    TerrainNode plain(hillParameters(false));
-    int culled = 0, shown = 0, all = 0, wrong = 0;
-    glm::dvec3 position(0);
-    for (int i = 0; i < 120; ++i) {
-        // Jumps, and small moves between them, so that flags of the last frame matter.
-        if (i % 4 == 0)
-            position = {random.uniform(-0.9, 0.9) * kSize, random.uniform(-0.9, 0.9) * kSize, 0};
-        position += glm::dvec3(random.uniform(-20, 20), random.uniform(-20, 20), 0);
-        position.z = Hills::height(position.x, position.y) + random.logarithmic(2, 100);
-        const glm::dvec3 gaze(random.uniform(-1, 1), random.uniform(-1, 1),
-                              random.uniform(-0.3, 0.1));
-        const Camera camera = test::cameraAt(position, position + gaze, random.uniform(0.8, 2.6));
-        const glm::dmat4 toScreen = camera.view.cameraToScreen * camera.view.localToCamera;
-        for (int frame = 0; frame < 3; ++frame) {
-            terrain.update(camera.view);
-            hills.measure(terrain);
-            plain.update(camera.view);
-            hills.measure(plain);
-        }
-        terrain.update(camera.view);
-        plain.update(camera.view);
-        all += visibleLeaves(plain);
-        shown += visibleLeaves(terrain);
-        terrain.forEachLeaf([&](const TerrainQuad& quad) {
-            if (quad.isVisible()) return;
-            ++culled;
-            for (int k = 0; k < 25; ++k) {
-                const double x = quad.ox + quad.l * random.uniform(0, 1);
-                const double y = quad.oy + quad.l * random.uniform(0, 1);
-                wrong += isClearlySeen(toScreen, position, {x, y, Hills::height(x, y)}) ? 1 : 0;
+    for (const Shape& shape : shapes()) {
+        CAPTURE(std::string(shape.name));
+        const Deformation& deformation = *shape.deformation;
+        Random random(21);
+        TerrainNode terrain(hillParameters(true, shape.deformation));
+        TerrainNode plain(hillParameters(false, shape.deformation));
+        int culled = 0, shown = 0, all = 0, wrong = 0;
+        glm::dvec3 place(0);
+        for (int i = 0; i < 120; ++i) {
+            // Jumps, and small moves between them, so that flags of the last frame matter.
+            if (i % 4 == 0)
+                place = {random.uniform(-0.9, 0.9) * kSize, random.uniform(-0.9, 0.9) * kSize, 0};
+            place += glm::dvec3(random.uniform(-20, 20), random.uniform(-20, 20), 0);
+            place.z = Hills::height(place.x, place.y) + random.logarithmic(2, 100);
+            const glm::dvec3 gaze(random.uniform(-1, 1), random.uniform(-1, 1),
+                                  random.uniform(-0.3, 0.1));
+            const glm::dvec3 position = deformation.localToDeformed(place);
+            const glm::dvec3 target =
+                position + glm::dmat3(deformation.localToDeformedDifferential(place)) * gaze;
+            const Camera camera = test::cameraAt(position, target, random.uniform(0.8, 2.6));
+            const glm::dmat4 toScreen = camera.view.cameraToScreen * camera.view.localToCamera;
+            for (int frame = 0; frame < 3; ++frame) {
+                terrain.update(camera.view);
+                hills.measure(terrain);
+                plain.update(camera.view);
+                hills.measure(plain);
             }
-        });
+            terrain.update(camera.view);
+            plain.update(camera.view);
+            all += visibleLeaves(plain);
+            shown += visibleLeaves(terrain);
+            terrain.forEachLeaf([&](const TerrainQuad& quad) {
+                if (quad.isVisible()) return;
+                ++culled;
+                for (int k = 0; k < 25; ++k) {
+                    const double x = quad.ox + quad.l * random.uniform(0, 1);
+                    const double y = quad.oy + quad.l * random.uniform(0, 1);
+                    const glm::dvec3 p = deformation.localToDeformed({x, y, Hills::height(x, y)});
+                    wrong += isClearlySeen(deformation, toScreen, position, p) ? 1 : 0;
+                }
+            });
+        }
+        CHECK(wrong == 0);
+        CHECK(culled > 1000);
+        MESSAGE("leaves shown with horizon culling: " << shown << " of " << all);
+        CHECK(shown < 0.9 * all);
     }
-    CHECK(wrong == 0);
-    CHECK(culled > 1000);
-    MESSAGE("leaves shown with horizon culling: " << shown << " of " << all);
-    CHECK(shown < 0.9 * all);
 }
 
 TEST_CASE("A quad that comes out from behind a hill is shown again") {
