@@ -166,7 +166,44 @@ bool Program::readStatus(Diagnostics& diagnostics) {
     return good != 0;
 }
 
+bool Program::canDraw(PrimitiveMode mode) const {
+    if (!restrictsInput_) return mode != PrimitiveMode::patches;
+    switch (mode) {
+    case PrimitiveMode::lines:
+    case PrimitiveMode::lineLoop:
+    case PrimitiveMode::lineStrip:
+        return inputPrimitives_ == GL_LINES;
+    case PrimitiveMode::triangles:
+    case PrimitiveMode::triangleStrip:
+    case PrimitiveMode::triangleFan:
+        return inputPrimitives_ == GL_TRIANGLES;
+    case PrimitiveMode::linesAdjacency:
+    case PrimitiveMode::lineStripAdjacency:
+        return inputPrimitives_ == GL_LINES_ADJACENCY;
+    case PrimitiveMode::trianglesAdjacency:
+    case PrimitiveMode::triangleStripAdjacency:
+        return inputPrimitives_ == GL_TRIANGLES_ADJACENCY;
+    case PrimitiveMode::points:
+    case PrimitiveMode::patches:
+        break;
+    }
+    return inputPrimitives_ == unsigned(mode);
+}
+
+// What the stages take, once they are linked.
+void Program::readInput() {
+    const auto& gl = bindings_.context.gl();
+    const bool tessellates = hasStage(ShaderStage::tessEvaluation);
+    restrictsInput_ = !fromBinary_ && (tessellates || hasStage(ShaderStage::geometry));
+    inputPrimitives_ = GL_PATCHES;
+    if (tessellates || !restrictsInput_) return;
+    GLint type = 0;
+    gl.GetProgramiv(name_, GL_GEOMETRY_INPUT_TYPE, &type);
+    inputPrimitives_ = unsigned(type);
+}
+
 void Program::readInterface() {
+    readInput();
     ProgramInterface interface = readProgramInterface(bindings_.context, name_);
     for (ActiveBlock& block : interface.blocks) {
         auto [storage, created] = bindings_.blocks.acquire(block.name, block.size, block.members);
@@ -315,6 +352,8 @@ void Program::replaceBy(Program& fresh) {
     std::swap(blocks_, fresh.blocks_);
     std::swap(subroutines_, fresh.subroutines_);
     std::swap(fromBinary_, fresh.fromBinary_);
+    std::swap(restrictsInput_, fresh.restrictsInput_);
+    std::swap(inputPrimitives_, fresh.inputPrimitives_);
     std::swap(capturesFeedback_, fresh.capturesFeedback_);
     for (const auto& module : source_.modules)
         std::replace(module->programs_.begin(), module->programs_.end(), &fresh, this);

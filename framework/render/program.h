@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/diagnostic.h"
+#include "render/mesh_data.h"
 #include "render/module.h"
 #include "render/program_bindings.h"
 #include "render/program_interface.h"
@@ -141,6 +142,9 @@ public:
     const std::string& name() const { return source_.name; }
     const std::vector<std::shared_ptr<Module>>& modules() const { return source_.modules; }
     bool hasStage(ShaderStage stage) const;
+    /// Whether OpenGL draws primitives of this mode with it: tessellation takes patches only, and
+    /// geometry stages say what they take.
+    bool canDraw(PrimitiveMode mode) const;
     bool capturesFeedback() const { return capturesFeedback_; }
     /// For ProgramSource::binary; nothing when the driver has no such thing.
     std::optional<ProgramBinary> binary() const;
@@ -208,6 +212,7 @@ private:
     bool attach(Diagnostics& diagnostics);
     bool collectFeedback(Diagnostics& diagnostics);
     bool readStatus(Diagnostics& diagnostics);
+    void readInput();
     void readInterface();
     void applyInitialValues(Diagnostics& diagnostics);
     void applyInitialValue(const InitialUniform& initial, Diagnostics& diagnostics);
@@ -234,6 +239,8 @@ private:
     ProgramSource source_;
     unsigned name_ = 0;
     bool capturesFeedback_ = false;
+    unsigned inputPrimitives_ = 0; ///< GL_TRIANGLES and so on, of the first stage that cares
+    bool restrictsInput_ = false;
     bool fromBinary_ = false;
     bool finished_ = false;
     bool good_ = false;

@@ -34,7 +34,7 @@ public:
 
     bool run() override {
         Program* const program = scene_.currentProgram(place_);
-        if (!program) return false;
+        if (!program || !fits(*program)) return false;
         scene_.drawState().framebuffer->use();
         program->use();
         mesh_.draw(count_);
@@ -42,6 +42,15 @@ public:
     }
 
 private:
+    bool fits(const Program& program) const {
+        if (program.canDraw(mesh_.mode())) return true;
+        scene_.resources().diagnostics().error(
+            "wrong-primitives", place_,
+            "program '" + program.name() + "' can't draw what this mesh is made of",
+            "a mesh of the primitives that its geometry or tessellation stage takes");
+        return false;
+    }
+
     Mesh& mesh_;
     int count_;
     Place place_;

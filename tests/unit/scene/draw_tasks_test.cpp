@@ -315,4 +315,25 @@ TEST_CASE_FIXTURE(DrawFixture, "Nodes of a parallel loop do not draw with one an
     checkNoDiagnostics();
 }
 
+TEST_CASE_FIXTURE(DrawFixture, "What a program can't draw is told, not sent") {
+    write("lines.glsl", "#ifdef _VERTEX_\nlayout(location = 0) in vec4 p; void main() { "
+                        "gl_Position = p; }\n#endif\n#ifdef _GEOMETRY_\nlayout(lines) in; "
+                        "layout(line_strip, max_vertices = 2) out;\nvoid main() { for (int i = 0; "
+                        "i < 2; ++i) { gl_Position = gl_in[i].gl_Position; EmitVertex(); } }\n"
+                        "#endif\n#ifdef _FRAGMENT_\nlayout(location = 0) out vec4 c; "
+                        "void main() { c = vec4(1); }\n#endif\n");
+    write("line.mesh", "0 1 0 1 0 1 linestrip 1 0 2 float false 2 -1 0.0625 1 0.0625 0");
+    const std::string module = "<module name='lines' version='330' source='lines.glsl'/>\n";
+    loadFrame(module, "<setProgram><module name='lines'/></setProgram><drawMesh name='line'/>");
+    CHECK(draw());
+    checkNoDiagnostics();
+    CHECK(pixel() == Colour{255, 255, 255});
+    scene.reset();
+    resources.reset();
+    loadFrame(module, "<setProgram><module name='lines'/></setProgram>\n<drawMesh name='quad'/>");
+    draw();
+    draw();
+    CHECK(codes() == std::vector<std::string>{"wrong-primitives 8:17"});
+}
+
 } // namespace terrane
