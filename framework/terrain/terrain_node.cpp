@@ -58,11 +58,28 @@ QuadBox TerrainNode::wholeBox(const TerrainQuad& quad) const {
     return {quad.ox, quad.oy, quad.l, zmin_, zmax_};
 }
 
+void TerrainNode::inheritElevations(TerrainQuad& quad) const {
+    // So many pairs are one or two pictures; before, nobody knows how rough the ground is.
+    constexpr int kEnough = 100;
+    quad.zmin = zmin_;
+    quad.zmax = zmax_;
+    if (quad.parent < 0 || comparisons_ < kEnough) return;
+    const TerrainQuad& parent = quads_[quad.parent];
+    const double margin = 2 * roughness_ * quad.l;
+    quad.zmin = std::max(zmin_, parent.zmin - margin);
+    quad.zmax = std::min(zmax_, parent.zmax + margin);
+}
+
+void TerrainNode::compareWithParent(const TerrainQuad& quad) {
+    if (quad.parent < 0 || !quads_[quad.parent].measured) return;
+    const TerrainQuad& parent = quads_[quad.parent];
+    const double beyond = std::max(parent.zmin - quad.zmin, quad.zmax - parent.zmax);
+    roughness_ = std::max(roughness_, beyond / quad.l);
+    comparisons_ += comparisons_ < std::numeric_limits<int>::max() ? 1 : 0;
+}
+
 void TerrainNode::updateQuad(TerrainQuad& quad, Visibility ofParent) {
-    if (!quad.measured) {
-        quad.zmin = zmin_;
-        quad.zmax = zmax_;
-    }
+    if (!quad.measured) inheritElevations(quad);
     quad.visibility = ofParent == Visibility::partial
                           ? deformation().visibility(state_.viewer, wholeBox(quad))
                           : ofParent;
@@ -102,8 +119,8 @@ void TerrainNode::updateChildren(TerrainQuad& quad) {
 
 void TerrainNode::updateLeaf(TerrainQuad& quad) {
     if (!quad.isVisible()) return;
-    // How it is drawn is known now, so the measured elevations may count.
-    if (quad.measured && quad.visibility == Visibility::partial)
+    // It is drawn as it is, so its own elevations count.
+    if (quad.visibility == Visibility::partial)
         quad.visibility = deformation().visibility(state_.viewer, quad.box());
     if (!quad.isVisible()) return;
     quad.occluded = horizon_.addOccluder(quad.box());
@@ -151,11 +168,14 @@ void TerrainNode::setElevations(int index, double zmin, double zmax) {
     assert(quads_[index].isAlive() && "TerrainNode::setElevations: no such quad");
     const bool valid = std::isfinite(zmin) && std::isfinite(zmax) && zmin <= zmax;
     if (!valid) return;
-    quads_[index].zmin = zmin;
-    quads_[index].zmax = zmax;
-    quads_[index].measured = true;
+    TerrainQuad& quad = quads_[index];
+    const bool known = quad.measured && quad.zmin == zmin && quad.zmax == zmax;
+    quad.zmin = zmin;
+    quad.zmax = zmax;
+    quad.measured = true;
     zmin_ = std::min(zmin_, zmin);
     zmax_ = std::max(zmax_, zmax);
+    if (!known) compareWithParent(quad);
 }
 
 } // namespace terrane

@@ -74,9 +74,10 @@ public:
     /// Null when the tree has no such quad.
     const TerrainQuad* find(int level, int tx, int ty) const;
     /// What was measured of the ground that is drawn for a quad as long as it is a leaf. Finer
-    /// levels may be higher or lower, so neither its children nor whether it is split depend on it:
-    /// these go by the elevations of the whole terrain, which grow with whatever is measured
-    /// beyond. Ignored when it is no range of numbers.
+    /// levels may be higher or lower: whether it is split does not depend on it, but on the
+    /// elevations of the whole terrain, which grow with whatever is measured beyond; and its
+    /// children inherit it with a margin, twice what was measured anywhere as the difference of a
+    /// quad from its parent. Ignored when it is no range of numbers.
     void setElevations(int index, double zmin, double zmax);
     /// What was measured of a quad is out of date.
     void forgetElevations(int index) { quads_[index].measured = false; }
@@ -100,6 +101,8 @@ private:
     void updateChildren(TerrainQuad& quad);
     void updateLeaf(TerrainQuad& quad);
     QuadBox wholeBox(const TerrainQuad& quad) const;
+    void inheritElevations(TerrainQuad& quad) const;
+    void compareWithParent(const TerrainQuad& quad);
     bool isToSplit(const TerrainQuad& quad);
     void resetHorizon();
 
@@ -120,6 +123,8 @@ private:
     double groundHeight_ = 0;
     bool groundMeasured_ = false;
     double zmin_ = 0, zmax_ = 0; ///< of all ground: what the author says, and what was measured
+    double roughness_ = 0; ///< how far a quad went beyond its parent, at most, in edges of the quad
+    int comparisons_ = 0;  ///< of a quad with its parent
     bool splitInvisibleQuads_ = false;
     bool splitBelowCamera_ = false;
     bool limitReached_ = false;

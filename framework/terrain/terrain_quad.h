@@ -20,8 +20,8 @@ struct TerrainQuad {
     double ox = 0, oy = 0; ///< lower left corner, local metres from the centre of the root quad
     double l = 0;          ///< edge, local metres
 
-    /// Elevations of the ground: those of the whole terrain, unless somebody has measured those of
-    /// this quad.
+    /// Elevations of the ground: what somebody measured, or else what is likely after those of the
+    /// parent quad.
     double zmin = 0, zmax = 0;
     bool measured = false;
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mountains.h"
 
-#include "producer/gpu_tile_storage.h"
-#include "producer/tile_producer.h"
 #include "resource/manager.h"
-#include "scene/scene_manager.h"
 #include "terrain/terrain_node.h"
 
-#include <cmath>
 #include <cstdlib>
-#include <cstring>
 
 namespace terrane {
 
@@ -54,36 +49,16 @@ PlayerOptions Mountains::write(const MountainEdits& edits, PlayerOptions options
 }
 
 double Mountains::groundBelowCamera() {
-    auto& resources = *player_.resources();
-    const auto terrain = resources.get<TerrainNode>("groundTerrain");
-    const auto producer = resources.get<TileProducer>("elevation");
-    REQUIRE(terrain);
-    REQUIRE(producer);
     const glm::dvec3 camera = player_.controller().position();
-    const double size = 2 * terrain->parameters().size;
-    const glm::dvec2 place = glm::dvec2(camera) / size + 0.5; // in the root quad
-    const Tile* finest = nullptr;
-    for (int level = 0; level <= terrain->parameters().maxLevel; ++level) {
-        const glm::dvec2 tile = glm::floor(place * std::exp2(level));
-        const Tile* found = producer->findTile(
-            {level, static_cast<int>(tile.x), static_cast<int>(tile.y)}, true, true);
-        if (found) finest = found;
-    }
-    if (!finest) return 0;
-    const auto& slot = finest->slot().as<GpuTileStorage::Slot>();
-    const int border = producer->border();
-    const int cells = producer->cache().storage().tileSize() - 2 * border - 1;
-    const glm::dvec2 inTile = glm::fract(place * std::exp2(finest->id().level));
-    const glm::ivec2 texel = border + glm::ivec2(glm::round(inTile * double(cells)));
-    const auto bytes = slot.texture()->download(
-        {.x = texel.x, .y = texel.y, .z = slot.layer(), .width = 1, .height = 1},
-        {TransferFormat::red, TransferType::f32});
-    float height = 0;
-    std::memcpy(&height, bytes.data(), sizeof height);
-    return height;
+    const auto place = player_.placeAt(camera.x, camera.y);
+    REQUIRE(place);
+    const auto found = player_.elevationAt(*place);
+    REQUIRE(found);
+    return found->elevation;
 }
 
 void Mountains::followGround() {
+    if (player_.frames() == 0) return;
     const double ground = groundBelowCamera();
     player_.controller().groundHeight = ground;
     player_.resources()->get<TerrainNode>("groundTerrain")->setGroundHeight(ground);

@@ -32,7 +32,7 @@ public:
 
     /// Height of the relief below the camera, by the finest elevation tile that is there; metres.
     double groundBelowCamera();
-    /// Raises the view so that its distances count from the ground below the camera.
+    /// Has the next frame take it for the height of the ground, however the camera got there.
     void followGround();
 
     Gaps gaps() { return findGaps(player_.capture(), kBackground); }
