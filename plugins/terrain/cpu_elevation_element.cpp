@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugins/terrain/cpu_elevation_producer.h"
 #include "plugins/terrain/declare.h"
+#include "plugins/terrain/residual_file.h"
 #include "plugins/terrain/storage_checks.h"
 #include "resource/build_context.h"
 #include "resource/manager.h"
@@ -15,8 +16,6 @@ struct CpuElevationDescription : ElementDescription {
     Ref<TileProducer> residuals;
 };
 
-constexpr int kRest = 5; // n + 5
-
 bool checkStorage(const CpuElevationDescription& d, const CpuFloatTileStorage& storage,
                   Diagnostics& diagnostics) {
     if (storage.channels() != 1) {
@@ -29,10 +28,10 @@ bool checkStorage(const CpuElevationDescription& d, const CpuFloatTileStorage& s
     if (!checkResiduals(storage, d.cache.place, *d.residuals, d.residuals.place, diagnostics))
         return false;
     // A tile is two parent halves wide.
-    const int n = storage.tileSize() - kRest;
+    const int n = storage.tileSize() - ResidualFile::kRest;
     if (n > 0 && n % 2 == 0) return true;
     reportTileSize(storage, d.cache.place, "elevations",
-                   multiplesNear(2, kRest, storage.tileSize()), diagnostics);
+                   multiplesNear(2, ResidualFile::kRest, storage.tileSize()), diagnostics);
     return false;
 }
 

@@ -38,7 +38,7 @@ bool CpuElevationProducer::doCreateTile(const TileId& tile, TileSlot& slot,
     else
         std::fill_n(out.values, width * width, 0.0f);
     if (tile.level == 0) return true;
-    const int half = (width_ - 5) / 2;
+    const int half = (width_ - ResidualFile::kRest) / 2;
     const auto& parent = inputs.get(*this, tile.parent()).slot().as<CpuFloatTileStorage::Slot>();
     const ElevationView<const float> whole{parent.data(), width};
     addUpsampled(whole.at(tile.tx % 2 * half, tile.ty % 2 * half), out, width_);

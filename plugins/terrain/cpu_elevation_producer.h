@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "plugins/terrain/residual_file.h"
 #include "plugins/terrain/residual_source.h"
 #include "producer/tile_producer.h"
 
@@ -19,7 +20,7 @@ public:
     CpuElevationProducer(std::string name, std::shared_ptr<TileCache> cache,
                          std::shared_ptr<TileProducer> residuals);
 
-    int border() const override { return 2; }
+    int border() const override { return ResidualFile::kBorder; }
     void setRootQuadSize(float size) override;
     bool prefetchTile(const TileId& tile) override;
 
