@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "archive_edits.h"
 #include "archive_folder.h"
 #include "crack_finder.h"
 
 #include "app/player.h"
 
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace terrane {
 
-/// archives/planet, changed by a test: a text of one of its files, and what stands there instead. A
-/// text that is not there fails the test.
+/// What a test changes in the files of archives/planet.
 struct PlanetEdits {
-    using Edits = std::vector<std::pair<std::string, std::string>>;
-    Edits archive;
-    Edits ground;
-    Edits relief;
+    TextEdits archive;
+    TextEdits ground;
+    TextEdits relief;
 };
 
 /// The planet without its sky, in front of one colour, and a player that draws it small.
