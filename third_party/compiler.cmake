@@ -20,6 +20,7 @@ add_library(terrane_sanitizer_options INTERFACE)
 if(TERRANE_SANITIZE)
     add_compile_options(-fsanitize=${TERRANE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${TERRANE_SANITIZE})
+    target_link_options(terrane_sanitizer_options INTERFACE -rdynamic) # it replaces a function of libraries
     target_sources(terrane_sanitizer_options INTERFACE ${PROJECT_SOURCE_DIR}/tests/sanitizers/options.cpp)
 endif()
 

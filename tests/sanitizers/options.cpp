@@ -4,6 +4,12 @@
 
 extern "C" {
 
+// A leak in a library can be told by the library's name only while that is loaded, and a window
+// unloads Mesa's when it closes.
+int dlclose(void*) {
+    return 0;
+}
+
 const char* __asan_default_options() {
     return "detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:"
            "allocator_may_return_null=1";
@@ -20,6 +26,8 @@ const char* __lsan_default_options() {
 // Mesa keeps per-process tables, and LLVM its compiled code, until the process ends.
 const char* __lsan_default_suppressions() {
     return "leak:libOSMesa.so\n"
+           "leak:libGLX\n"
+           "leak:swrast_dri.so\n"
            "leak:libgallium\n"
            "leak:libLLVM\n";
 }
@@ -28,9 +36,12 @@ const char* __tsan_default_options() {
     return "second_deadlock_stack=1";
 }
 
-// Neither library is instrumented, so what happens inside it can't be judged.
+// None of these libraries is instrumented, so what happens inside it can't be judged.
 const char* __tsan_default_suppressions() {
     return "called_from_lib:libOSMesa.so\n"
+           "called_from_lib:libEGL_mesa.so\n"
+           "called_from_lib:libGLX_mesa.so\n"
+           "called_from_lib:swrast_dri.so\n"
            "called_from_lib:libgallium\n"
            "called_from_lib:libLLVM\n"
            // LLVM registers what it compiles with the unwinder; of the unwinder's lock the
