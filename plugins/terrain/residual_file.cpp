@@ -170,7 +170,7 @@ std::vector<std::int16_t> ResidualFile::read(const TileId& tile, std::string& pr
         problem = "its bytes are not inside the file";
         return {};
     }
-    const int width = tileSize(tile.level) + kRest;
+    const int width = tileWidth(tile.level);
     auto image = decodeTiffTile(bytes_.subspan(found->begin, found->end - found->begin),
                                 header_.tileSize + kRest, problem);
     if (!image) return {};

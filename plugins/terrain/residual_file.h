@@ -44,8 +44,9 @@ public:
 
     /// Levels and coordinates of tiles are those of the pyramid that a sub-pyramid belongs to.
     bool hasTile(const TileId& tile) const;
-    /// Edge of the tiles of a level, without borders.
+    /// Edge of the tiles of a level, without borders and with them.
     int tileSize(int level) const;
+    int tileWidth(int level) const { return tileSize(level) + kRest; }
 
     /// Bytes of a tile, counted from the start of the file. Tiles may share theirs.
     struct Range {
@@ -62,8 +63,8 @@ public:
     };
     Faults faults() const;
 
-    /// The values of a tile that there is, in units of the file: (tileSize(level) + 5)^2, row by
-    /// row from the bottom. Empty, with the reason, when the tile is damaged.
+    /// The values of a tile that there is, in units of the file: tileWidth(level)^2, row by row
+    /// from the bottom. Empty, with the reason, when the tile is damaged.
     std::vector<std::int16_t> read(const TileId& tile, std::string& problem) const;
 
 private:

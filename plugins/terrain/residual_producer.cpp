@@ -8,7 +8,7 @@ namespace terrane {
 std::optional<int> ResidualProducer::elevationTileSize() const {
     const ResidualFile* const file = pyramid_->file();
     if (!file || file->header().rootLevel > 0) return std::nullopt;
-    return file->tileSize(pyramid_->delta()) + ResidualFile::kRest;
+    return file->tileWidth(pyramid_->delta());
 }
 
 bool ResidualProducer::doCreateTile(const TileId& tile, TileSlot& slot, const TileInputs&) {

@@ -71,7 +71,7 @@ void ResidualPyramid::readFileTile(const TileId& tile, ElevationView<float> out)
                 return part->read(tile, out.values, static_cast<int>(out.stride));
         }
     }
-    const int width = file_->tileSize(tile.level) + ResidualFile::kRest;
+    const int width = file_->tileWidth(tile.level);
     const double metres = static_cast<double>(file_->header().scale) * parameters_.scale;
     const std::vector<std::int16_t> read = units(tile);
     for (int y = 0; y < width; ++y) {
@@ -101,21 +101,20 @@ std::vector<std::int16_t> ResidualPyramid::units(const TileId& tile) const {
 // The elevations of level `delta`: one tile, as those of all levels above.
 void ResidualPyramid::readRoot(ElevationView<float> out) const {
     std::vector<float> parent, child;
+    int width = 0;
     for (int level = 0; level <= parameters_.delta; ++level) {
-        const auto width = static_cast<std::size_t>(file_->tileSize(level) + ResidualFile::kRest);
-        child.assign(width * width, 0.0f);
-        const ElevationView<float> view{child.data(), width};
+        const auto parentEdge = static_cast<std::size_t>(width);
+        width = file_->tileWidth(level);
+        const auto edge = static_cast<std::size_t>(width);
+        child.assign(edge * edge, 0.0f);
+        const ElevationView<float> view{child.data(), edge};
         if (file_->hasTile({level, 0, 0})) readFileTile({level, 0, 0}, view);
-        if (level > 0)
-            addUpsampled({parent.data(), static_cast<std::size_t>(file_->tileSize(level - 1) +
-                                                                  ResidualFile::kRest)},
-                         view, static_cast<int>(width));
+        if (level > 0) addUpsampled({parent.data(), parentEdge}, view, width);
         parent.swap(child);
     }
-    const auto width =
-        static_cast<std::ptrdiff_t>(file_->tileSize(parameters_.delta) + ResidualFile::kRest);
-    for (std::ptrdiff_t y = 0; y < width; ++y)
-        std::copy_n(parent.begin() + y * width, width, out.row(static_cast<int>(y)));
+    const ElevationView<const float> whole{parent.data(), static_cast<std::size_t>(width)};
+    for (int y = 0; y < width; ++y)
+        std::copy_n(whole.row(y), width, out.row(y));
 }
 
 } // namespace terrane

@@ -27,9 +27,9 @@ std::string sizesForDeltas(const ResidualPyramid& residuals) {
     for (int delta = 0; delta <= file.header().minLevel; ++delta) {
         const char* const comma = delta > 0 ? ", " : "";
         deltas += comma + std::to_string(delta);
-        sizes += comma + std::to_string(file.tileSize(delta) + ResidualFile::kRest);
+        sizes += comma + std::to_string(file.tileWidth(delta));
     }
-    const int right = file.tileSize(residuals.delta()) + ResidualFile::kRest;
+    const int right = file.tileWidth(residuals.delta());
     return std::to_string(right) + (deltas == "0" ? "" : "; for delta " + deltas + ": " + sizes);
 }
 
