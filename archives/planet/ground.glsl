@@ -53,8 +53,8 @@ in float blend;
 in vec3 airLight, airLeft;
 layout(location = 0) out vec4 colour;
 
-float hash(vec3 cell) {
-    uvec3 v = uvec3(ivec3(cell)) * uvec3(0x8da6b343u, 0xd8163841u, 0xcb1ab31fu);
+float hash(ivec3 cell) {
+    uvec3 v = uvec3(cell) * uvec3(0x8da6b343u, 0xd8163841u, 0xcb1ab31fu);
     uint h = v.x ^ v.y ^ v.z;
     h = (h ^ h >> 15u) * 0x2c1b3c6du;
     h = (h ^ h >> 12u) * 0x297a2d39u;
@@ -63,28 +63,44 @@ float hash(vec3 cell) {
 
 // Smooth noise in [0,1].
 float noise(vec3 p) {
-    vec3 i = floor(p), f = p - i;
+    ivec3 i = ivec3(floor(p));
+    vec3 f = p - floor(p);
     f = f * f * (3.0 - 2.0 * f);
-    vec2 x = vec2(0.0, 1.0);
+    ivec2 x = ivec2(0, 1);
     vec4 z = mix(vec4(hash(i), hash(i + x.yxx), hash(i + x.xyx), hash(i + x.yyx)),
                  vec4(hash(i + x.xxy), hash(i + x.yxy), hash(i + x.xyy), hash(i + x.yyy)), f.z);
     vec2 y = mix(z.xy, z.zw, f.y);
     return mix(y.x, y.y, f.x);
 }
 
+// Random, at a corner of the 2^level by 2^level cells of a face. Faces that meet share the corners
+// on their common edge, as points of the cube.
+float corner(ivec2 cell, int level) {
+    int edge = 1 << level;
+    ivec3 onFace = ivec3(2 * cell - edge, edge);
+    mat3 m = deformation.localToWorld;
+    ivec3 onCube = ivec3(round(m[0])) * onFace.x + ivec3(round(m[1])) * onFace.y +
+                   ivec3(round(m[2])) * onFace.z;
+    return hash(onCube);
+}
+
 // Noise in [0,1] on a grid of 2^level cells a face. Counted in integers, since metres on a planet
 // leave no digits for stones.
-float grain(float level) {
-    float depth = level - deformation.offset.w;
-    vec2 tile = round((deformation.offset.xy + deformation.radius) / deformation.offset.z);
-    vec2 first = mod(tile * exp2(depth), 4096.0);
-    vec2 p = fract(first) + uv * exp2(depth);
-    vec2 i = floor(p), f = p - i;
+float grain(int level) {
+    int depth = level - int(deformation.offset.w);
+    ivec2 tile = ivec2(round((deformation.offset.xy + deformation.radius) / deformation.offset.z));
+    vec2 p = uv * exp2(float(depth));
+    ivec2 first = tile << max(depth, 0);
+    if (depth < 0) {
+        first = tile >> -depth;
+        p += vec2(tile - (first << -depth)) * exp2(float(depth));
+    }
+    ivec2 i = first + ivec2(floor(p));
+    vec2 f = fract(p);
     f = f * f * (3.0 - 2.0 * f);
-    i += floor(first);
-    vec2 x = vec2(0.0, 1.0);
-    float low = mix(hash(vec3(i, level)), hash(vec3(i + x.yx, level)), f.x);
-    float high = mix(hash(vec3(i + x.xy, level)), hash(vec3(i + x.yy, level)), f.x);
+    ivec2 x = ivec2(0, 1);
+    float low = mix(corner(i, level), corner(i + x.yx, level), f.x);
+    float high = mix(corner(i + x.xy, level), corner(i + x.yy, level), f.x);
     return mix(low, high, f.y);
 }
 
@@ -96,8 +112,8 @@ float shown(float size) {
 // Tussocks and stones of several sizes, in about [-0.5,0.5].
 float stones() {
     float sum = 0.0;
-    for (float level = 18.0; level < 29.0; level += 2.0) {
-        float part = shown(4.0 * deformation.radius / exp2(level + 1.0));
+    for (int level = 18; level < 29; level += 2) {
+        float part = shown(4.0 * deformation.radius / exp2(float(level + 1)));
         if (part > 0.0) sum += part * (grain(level) - 0.5);
     }
     return 0.45 * sum;
@@ -145,8 +161,8 @@ vec3 land(Place p) {
 vec3 sea(Place p, vec3 toEye, vec3 sunlight, vec3 skylight, float depth) {
     vec3 deep = vec3(0.006, 0.022, 0.050), shallow = vec3(0.030, 0.105, 0.110);
     vec3 body = mix(deep, shallow, exp(-depth / 45.0));
-    vec2 waves = vec2(grain(22.0), grain(22.5)) * shown(3.0) +
-                 0.5 * vec2(grain(24.0), grain(24.5)) * shown(0.8);
+    vec2 waves = vec2(grain(22), grain(23)) * shown(3.0) +
+                 0.5 * vec2(grain(24), grain(25)) * shown(0.8);
     float facing = max(dot(p.up, toEye), 0.0);
     float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0) * 0.7;
     vec3 halfway = normalize(toEye + sunDirection());
