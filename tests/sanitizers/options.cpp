@@ -44,6 +44,8 @@ const char* __tsan_default_suppressions() {
            "called_from_lib:swrast_dri.so\n"
            "called_from_lib:libgallium\n"
            "called_from_lib:libLLVM\n"
+           // A mutex that may be locked twice, but is initialised where the sanitizer can't see it.
+           "mutex:libGLdispatch.so\n"
            // LLVM registers what it compiles with the unwinder; of the unwinder's lock the
            // sanitizer sees the taking but, inside LLVM, not the release.
            "deadlock:__register_frame_info\n"
