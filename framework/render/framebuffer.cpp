@@ -120,16 +120,18 @@ std::string Framebuffer::problem(AttachmentPoint point, const Attachment& attach
         return "layer " + std::to_string(attachment.layer) + " of a texture with " +
                std::to_string(layers);
     }
-    const std::string name(format.name);
     if (!texture.allocated()) return "there was no memory for the texture";
     if (texture.description().target == TextureTarget::buffer)
         return "a buffer texture can't be drawn into";
-    if (format.compressed) return "a compressed texture (" + name + ") can't be drawn into";
+    if (format.compressed)
+        return "a compressed texture (" + std::string(format.name) + ") can't be drawn into";
     const bool fits = point == AttachmentPoint::depth ? format.hasDepth()
                       : point == AttachmentPoint::stencil
                           ? format.hasStencil()
                           : !format.hasDepth() && !format.hasStencil();
-    if (!fits) return "format " + name + " can't be " + kPointNames[std::size_t(point)];
+    if (!fits)
+        return "format " + std::string(format.name) + " can't be " +
+               kPointNames[std::size_t(point)];
     return {};
 }
 

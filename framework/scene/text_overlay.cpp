@@ -54,8 +54,9 @@ bool TextTask::run() {
 }
 
 float TextTask::firstLine(int height) const {
-    if (origin_.y > 0) return float(height - origin_.y) - fontSize_;
-    return float(-origin_.y) + float(maxLines_ - 1) * fontSize_;
+    const auto y = float(origin_.y);
+    if (y > 0) return float(height) - y - fontSize_;
+    return float(maxLines_ - 1) * fontSize_ - y;
 }
 
 void TextTask::line(std::string_view text, const glm::u8vec4& colour) {
