@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/ground_height.h"
 
+#include "app/start_view.h"
 #include "terrain/spherical_deformation.h"
 #include "terrain/terrain_node.h"
 #include "terrain/tile_sampler.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -49,6 +53,78 @@ std::optional<TerrainPlace> terrainPlace(const std::vector<TerrainNode*>& terrai
         if (contains(*terrain, local)) return TerrainPlace{terrain, local};
     }
     return std::nullopt;
+}
+
+namespace {
+
+bool isSamePlanet(const TerrainNode& a, const TerrainNode& b) {
+    return isSphere(a) && isSphere(b) && a.deformation().radius() == b.deformation().radius() &&
+           a.state().localToWorld[3] == b.state().localToWorld[3];
+}
+
+glm::dvec3 toLocal(const TerrainNode& terrain, const glm::dvec3& world) {
+    const glm::dmat4 worldToLocal = glm::inverse(terrain.state().localToWorld);
+    return terrain.deformation().deformedToLocal(glm::dvec3(worldToLocal * glm::dvec4(world, 1)));
+}
+
+glm::dvec3 toWorld(const TerrainNode& terrain, const glm::dvec2& local, double height) {
+    const glm::dvec3 deformed = terrain.deformation().localToDeformed(glm::dvec3(local, height));
+    return glm::dvec3(terrain.state().localToWorld * glm::dvec4(deformed, 1));
+}
+
+bool isOlder(const TerrainNode& a, const TerrainNode& b) {
+    const auto age = [](const TerrainNode& t) {
+        return t.groundSample() ? t.groundSample()->frame + 1 : 0;
+    };
+    return age(a) < age(b);
+}
+
+/// The terrain that told the height of the ground of this one.
+TerrainNode& measuredFor(TerrainNode& terrain, const std::vector<TerrainNode*>& terrains) {
+    TerrainNode* last = &terrain;
+    for (TerrainNode* other : terrains)
+        if (isSamePlanet(*other, terrain) && isOlder(*last, *other)) last = other;
+    return *last;
+}
+
+/// The finest quad at a point whose ground was measured; the root if none was.
+const TerrainQuad& measuredQuadAt(const TerrainNode& terrain, const glm::dvec2& local) {
+    const TerrainQuad* quad = &terrain.leafAt(local);
+    while (!quad->measured && quad->parent >= 0)
+        quad = &terrain.quads()[quad->parent];
+    return *quad;
+}
+
+} // namespace
+
+TerrainNode* groundBelowCamera(const std::vector<TerrainNode*>& terrains) {
+    TerrainNode* const below = terrainBelowCamera(terrains);
+    return below ? &measuredFor(*below, terrains) : nullptr;
+}
+
+void shareGroundHeight(const TerrainNode& measured, const std::vector<TerrainNode*>& terrains) {
+    for (TerrainNode* terrain : terrains)
+        if (terrain != &measured && isSamePlanet(*terrain, measured))
+            terrain->setGroundHeight(measured.groundHeight());
+}
+
+double highestGround(const std::vector<TerrainNode*>& terrains, const glm::dvec3& world) {
+    for (TerrainNode* terrain : terrains) {
+        const glm::dvec2 local(toLocal(*terrain, world));
+        if (!contains(*terrain, local)) continue;
+        const TerrainNode& measured = measuredFor(*terrain, terrains);
+        if (!measured.groundSample()) continue;
+        const TerrainNode::GroundSample& sample = *measured.groundSample();
+        const double away = glm::distance(toWorld(measured, sample.place, sample.height),
+                                          toWorld(*terrain, local, sample.height));
+        const TerrainQuad& quad = measuredQuadAt(*terrain, local);
+        if (!quad.measured) return sample.height + away; // as on a slope of 45 degrees
+        const double bound = std::max(quad.zmax, sample.height);
+        if (away > quad.l / 4) return bound;
+        // Three times as steep as the quad is on the whole.
+        return std::min(bound, sample.height + 3 * (quad.zmax - quad.zmin) / quad.l * away);
+    }
+    return -std::numeric_limits<double>::infinity();
 }
 
 std::optional<TileElevation> groundElevation(const TerrainPlace& place,

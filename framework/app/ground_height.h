@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace terrane {
 
@@ -28,5 +29,18 @@ std::optional<TerrainPlace> terrainPlace(const std::vector<TerrainNode*>& terrai
 /// The elevation there by the elevation tiles of the terrain; see elevationAt().
 std::optional<TileElevation> groundElevation(const TerrainPlace& place,
                                              const std::vector<TileSampler*>& samplers);
+
+/// The terrain whose last measurement tells the height of the ground below the camera: that which
+/// the camera is above, or the face of the same planet that was measured last. Null without any.
+TerrainNode* groundBelowCamera(const std::vector<TerrainNode*>& terrains);
+
+/// Tells the other faces of a planet how high the ground is below the camera, so that they are
+/// divided as finely along its edges.
+void shareGroundHeight(const TerrainNode& measured, const std::vector<TerrainNode*>& terrains);
+
+/// How high the ground may be below a point of the world, metres: what was measured near it and,
+/// farther away, what is known of the quad that is there. Minus infinity when nothing is known. As
+/// of the last frame.
+double highestGround(const std::vector<TerrainNode*>& terrains, const glm::dvec3& world);
 
 } // namespace terrane

@@ -14,6 +14,7 @@
 #include "terrain/tile_sampler.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -207,6 +208,9 @@ void Player::advanceTime() {
 }
 
 void Player::placeCamera() {
+    // A camera that turns or jumps may be where the ground is not known yet.
+    controller_->highestGround = -std::numeric_limits<double>::infinity();
+    if (frames_ > 0) controller_->highestGround = highestGround(terrains_, controller_->position());
     if (SceneNode* const camera = scene_->camera())
         camera->localToParent = controller_->cameraToWorld();
     scene_->cameraToScreen = controller_->cameraToScreen(target_->width(), target_->height());
@@ -223,7 +227,7 @@ void Player::clear() {
 }
 
 void Player::followGround() {
-    const TerrainNode* const terrain = terrainBelowCamera(terrains_);
+    const TerrainNode* const terrain = groundBelowCamera(terrains_);
     if (!terrain) return;
     controller_->groundHeight = terrain->groundHeight();
     shareGroundHeight(*terrain, terrains_);

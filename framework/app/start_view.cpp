@@ -22,14 +22,6 @@ void collect(const SceneNode& node, std::vector<T*>& all) {
         collect(*child, all);
 }
 
-bool isSamePlanet(const TerrainNode& a, const TerrainNode& b) {
-    const auto isSphere = [](const TerrainNode& terrain) {
-        return dynamic_cast<const SphericalDeformation*>(&terrain.deformation()) != nullptr;
-    };
-    return isSphere(a) && isSphere(b) && a.deformation().radius() == b.deformation().radius() &&
-           a.state().localToWorld[3] == b.state().localToWorld[3];
-}
-
 double sizeOf(const Box& box) {
     const glm::dvec3 extent = box.maximum - box.minimum;
     const double size = std::max({extent.x, extent.y, extent.z});
@@ -54,17 +46,11 @@ TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains) {
     TerrainNode* first = nullptr;
     for (TerrainNode* terrain : terrains) {
         if (!terrain->isBelowCamera(terrain->root())) continue;
-        if (terrain->groundMeasured()) return terrain;
+        if (terrain->groundSample()) return terrain;
         if (!first) first = terrain;
     }
     if (first) return first;
     return terrains.empty() ? nullptr : terrains.front();
-}
-
-void shareGroundHeight(const TerrainNode& belowCamera, const std::vector<TerrainNode*>& terrains) {
-    for (TerrainNode* terrain : terrains)
-        if (terrain != &belowCamera && isSamePlanet(*terrain, belowCamera))
-            terrain->setGroundHeight(belowCamera.groundHeight());
 }
 
 std::unique_ptr<TerrainViewController> makeViewController(const SceneNode& root) {

@@ -23,10 +23,6 @@ std::vector<TileSampler*> samplersOf(const SceneNode& root);
 /// there is none. As of their last update.
 TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains);
 
-/// Tells the other faces of a planet how high the ground is below the camera, so that they are
-/// divided as finely along its edges.
-void shareGroundHeight(const TerrainNode& belowCamera, const std::vector<TerrainNode*>& terrains);
-
 /// The view controller for the shape of the first terrain, with its start view: straight down from
 /// d = size (flat), 6 radii (planet) or 0.9 radii (cylinder) (terrain reference 5.1). Without a
 /// terrain, a flat one as far away as the scene is large.

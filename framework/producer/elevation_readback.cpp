@@ -67,7 +67,7 @@ void ElevationReadback::arrive(std::span<const std::byte> pixels) {
         const Entry& entry = batch.entries[i];
         const std::span<const Range> own(all + static_cast<std::size_t>(i) * rows, rows);
         if (entry.point) {
-            *entry.point = {.arrived = true, .elevation = own.front().zmax};
+            *entry.point = {.arrived = true, .elevation = own.front().zmax, .place = entry.place};
             continue;
         }
         if (entry.slot < 0) continue; // nobody waits for it any more
@@ -114,7 +114,8 @@ void ElevationReadback::offer(const Tile& tile, const Version& version) {
     *place = {.tile = &tile, .slot = slot, .version = version};
 }
 
-bool ElevationReadback::ask(Point& point, const Tile& tile, const glm::vec2& texel) {
+bool ElevationReadback::ask(Point& point, const Tile& tile, const glm::vec2& texel,
+                            const glm::dvec2& place) {
     assert(tile.done() && tile.users() > 0 && "ElevationReadback::ask: tile not ready");
     const bool room = !readback_.full() && pointCount_ < kMost;
     crowded_ |= !room;
@@ -123,7 +124,8 @@ bool ElevationReadback::ask(Point& point, const Tile& tile, const glm::vec2& tex
                               .slot = tile.slot().index(),
                               .version = versionOf(tile),
                               .point = &point,
-                              .texel = texel};
+                              .texel = texel,
+                              .place = place};
     return true;
 }
 

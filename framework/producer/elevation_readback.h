@@ -39,6 +39,7 @@ public:
     struct Point {
         bool arrived = false; ///< since somebody set it to false
         float elevation = 0;
+        glm::dvec2 place{0}; ///< what was said when it was asked for
     };
 
     /// The one of a storage. Null, with diagnostics, if OpenGL can't.
@@ -56,8 +57,8 @@ public:
     const Range* range(const Tile& tile);
     /// Reads an elevation, of a tile that is done and in use, at a point between the centres of its
     /// texels; (0,0) is that of the lower left one, borders included. False when there is no room
-    /// for it in this frame.
-    bool ask(Point& point, const Tile& tile, const glm::vec2& texel);
+    /// for it in this frame. The answer comes with the place.
+    bool ask(Point& point, const Tile& tile, const glm::vec2& texel, const glm::dvec2& place);
     void forget(const Point& point);
 
     /// Something is to be read in this frame, by the task.
@@ -86,6 +87,7 @@ private:
         Version version;
         Point* point = nullptr; ///< null: the range of the tile
         glm::vec2 texel{0};
+        glm::dvec2 place{0};
     };
     using Entries = std::array<Entry, kMost>;
     struct Batch {

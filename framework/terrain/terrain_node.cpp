@@ -9,6 +9,14 @@
 
 namespace terrane {
 
+namespace {
+
+bool contains(const TerrainQuad& quad, const glm::dvec2& p) {
+    return p.x >= quad.ox && p.x <= quad.ox + quad.l && p.y >= quad.oy && p.y <= quad.oy + quad.l;
+}
+
+} // namespace
+
 TerrainNode::TerrainNode(Parameters parameters)
     : parameters_(std::move(parameters)) {
     Parameters& p = parameters_;
@@ -23,6 +31,12 @@ TerrainNode::TerrainNode(Parameters parameters)
 
 void TerrainNode::setGroundHeight(double height) {
     if (std::isfinite(height)) groundHeight_ = height;
+}
+
+void TerrainNode::setGroundSample(const GroundSample& sample) {
+    if (!std::isfinite(sample.height)) return;
+    groundSample_ = sample;
+    groundHeight_ = sample.height;
 }
 
 bool TerrainNode::update(const TerrainView& view) {
@@ -97,8 +111,8 @@ void TerrainNode::updateQuad(TerrainQuad& quad, Visibility ofParent) {
 }
 
 bool TerrainNode::isToSplit(const TerrainQuad& quad) {
-    const bool seen =
-        quad.isVisible() || splitInvisibleQuads_ || (splitBelowCamera_ && isBelowCamera(quad));
+    const bool seen = quad.isVisible() || splitInvisibleQuads_ ||
+                      (splitBelowCamera_ && (isBelowCamera(quad) || isSoonBelowCamera(quad)));
     const bool wanted = seen && quad.level < parameters_.maxLevel &&
                         distanceToCamera(quad) < quad.l * state_.splitDistance;
     if (!wanted || !quad.isLeaf()) return wanted;
@@ -128,9 +142,21 @@ void TerrainNode::updateLeaf(TerrainQuad& quad) {
 }
 
 bool TerrainNode::isBelowCamera(const TerrainQuad& quad) const {
-    const glm::dvec3& c = state_.localCamera;
-    return state_.cameraIsLocal && c.x >= quad.ox && c.x <= quad.ox + quad.l && c.y >= quad.oy &&
-           c.y <= quad.oy + quad.l;
+    return state_.cameraIsLocal && contains(quad, glm::dvec2(state_.localCamera));
+}
+
+bool TerrainNode::isSoonBelowCamera(const TerrainQuad& quad) const {
+    return cameraSoon_ && contains(quad, *cameraSoon_);
+}
+
+const TerrainQuad& TerrainNode::leafAt(const glm::dvec2& local) const {
+    const TerrainQuad* quad = &root();
+    while (!quad->isLeaf()) {
+        const int east = local.x < quad->ox + quad->l / 2 ? 0 : 1;
+        const int north = local.y < quad->oy + quad->l / 2 ? 0 : 1;
+        quad = &child(*quad, east + 2 * north);
+    }
+    return *quad;
 }
 
 double TerrainNode::distanceToCamera(const TerrainQuad& quad) const {

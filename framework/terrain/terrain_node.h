@@ -8,7 +8,9 @@
 #include "terrain/terrain_state.h"
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace terrane {
 
@@ -52,19 +54,27 @@ public:
     /// Split also what is outside of the view, for data that is needed there.
     bool splitInvisibleQuads() const { return splitInvisibleQuads_; }
     void setSplitInvisibleQuads(bool split) { splitInvisibleQuads_ = split; }
-    /// Split also the quads that the camera is above, whether it looks down on them or not, for
-    /// the height of the ground below it.
+    /// Split also the quads that the camera is above, or will soon be, whether it looks down on
+    /// them or not, for the height of the ground below it.
     void setSplitBelowCamera(bool split) { splitBelowCamera_ = split; }
+    void setCameraSoon(const std::optional<glm::dvec2>& local) { cameraSoon_ = local; }
     /// Whether the camera is above a quad, seen from the local plane.
     bool isBelowCamera(const TerrainQuad& quad) const;
+    bool isSoonBelowCamera(const TerrainQuad& quad) const;
 
     /// Elevation of the ground below the camera, metres, from the last measurement; 0 before. Each
     /// terrain has its own. What is no number is ignored.
     double groundHeight() const { return groundHeight_; }
     void setGroundHeight(double height);
-    /// The ground height was measured on this terrain, and not only said to be that of another one.
-    bool groundMeasured() const { return groundMeasured_; }
-    void setGroundMeasured() { groundMeasured_ = true; }
+    /// Where the ground height was measured last on this terrain, and when.
+    struct GroundSample {
+        double height = 0;   ///< metres
+        glm::dvec2 place{0}; ///< local
+        std::uint64_t frame = 0;
+    };
+    const std::optional<GroundSample>& groundSample() const { return groundSample_; }
+    /// The height becomes the ground height.
+    void setGroundSample(const GroundSample& sample);
 
     const TerrainQuad& root() const { return quads_[0]; }
     const QuadPool& quads() const { return quads_; }
@@ -73,6 +83,8 @@ public:
     }
     /// Null when the tree has no such quad.
     const TerrainQuad* find(int level, int tx, int ty) const;
+    /// The leaf at a local point, or the one nearest to it as coordinates count.
+    const TerrainQuad& leafAt(const glm::dvec2& local) const;
     /// What was measured of the ground that is drawn for a quad as long as it is a leaf. Finer
     /// levels may be higher or lower: whether it is split does not depend on it, but on the
     /// elevations of the whole terrain, which grow with whatever is measured beyond; and its
@@ -121,12 +133,13 @@ private:
     TerrainState state_;
     HorizonBuffer horizon_;
     double groundHeight_ = 0;
-    bool groundMeasured_ = false;
+    std::optional<GroundSample> groundSample_;
     double zmin_ = 0, zmax_ = 0; ///< of all ground: what the author says, and what was measured
     double roughness_ = 0; ///< how far a quad went beyond its parent, at most, in edges of the quad
     int comparisons_ = 0;  ///< of a quad with its parent
     bool splitInvisibleQuads_ = false;
     bool splitBelowCamera_ = false;
+    std::optional<glm::dvec2> cameraSoon_;
     bool limitReached_ = false;
 };
 

@@ -21,14 +21,15 @@ TileSamplerZ::~TileSamplerZ() {
 
 bool TileSamplerZ::needs(const TerrainNode& terrain, const TerrainQuad& quad) const {
     if (TileSampler::needs(terrain, quad)) return true;
-    return terrain.isBelowCamera(quad) && producer().hasTile({quad.level, quad.tx, quad.ty});
+    const bool below = terrain.isBelowCamera(quad) || terrain.isSoonBelowCamera(quad);
+    return below && producer().hasTile({quad.level, quad.tx, quad.ty});
 }
 
 void TileSamplerZ::update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) {
     TileSampler::update(terrain, scene, frame);
     readback_->beginFrame(scene.frameNumber());
     measureQuads(terrain);
-    followGround(terrain);
+    followGround(terrain, scene.frameNumber());
     if (readback_->isAsked()) frame.require(readback_->task());
 }
 
@@ -44,17 +45,18 @@ void TileSamplerZ::measureQuads(TerrainNode& terrain) {
     }
 }
 
-void TileSamplerZ::followGround(TerrainNode& terrain) {
+void TileSamplerZ::followGround(TerrainNode& terrain, std::uint64_t frame) {
     waiting_ = false;
-    if (std::exchange(point_.arrived, false)) {
-        terrain.setGroundHeight(point_.elevation);
-        terrain.setGroundMeasured();
-    }
-    if (!terrain.isBelowCamera(terrain.root())) {
+    if (std::exchange(point_.arrived, false))
+        terrain.setGroundSample({point_.elevation, point_.place, frame});
+    terrain.setCameraSoon(std::nullopt);
+    if (!terrain.state().cameraIsLocal) {
         moving_ = false;
         return;
     }
     const glm::dvec2 place = whereCameraWillBe(terrain.state());
+    terrain.setCameraSoon(place);
+    if (!terrain.isSoonBelowCamera(terrain.root())) return;
     const TerrainQuad* const quad = finestQuad(terrain, place);
     if (!quad) return;
     const Tile& tile = *held(*quad);
@@ -68,7 +70,7 @@ void TileSamplerZ::followGround(TerrainNode& terrain) {
                       sample.date == sample_.date &&
                       glm::distance(sample.texel, sample_.texel) < kSamePlace;
     if (same) return;
-    waiting_ = !readback_->ask(point_, tile, sample.texel);
+    waiting_ = !readback_->ask(point_, tile, sample.texel, place);
     if (!waiting_) sample_ = sample;
 }
 

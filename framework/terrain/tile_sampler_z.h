@@ -15,8 +15,8 @@ namespace terrane {
 /// ground below the camera goes to the terrain (terrain reference 1.5, 3.7). GL thread.
 ///
 /// The height is that of the finest tile below the camera, between its texels. A camera that moves
-/// steadily gets the height of where it will be when the answer is there. Tiles below the camera
-/// are always needed.
+/// steadily gets the height of where it will be when the answer is there; on a planet the face that
+/// is there tells it. Tiles below the camera are always needed.
 class TileSamplerZ final : public TileSampler {
 public:
     /// Of the tiles, whose channel z is the elevation.
@@ -44,7 +44,7 @@ private:
     };
 
     void measureQuads(TerrainNode& terrain);
-    void followGround(TerrainNode& terrain);
+    void followGround(TerrainNode& terrain, std::uint64_t frame);
     glm::dvec2 whereCameraWillBe(const TerrainState& state);
     const TerrainQuad* finestQuad(const TerrainNode& terrain, const glm::dvec2& local) const;
 

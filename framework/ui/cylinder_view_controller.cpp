@@ -12,7 +12,7 @@ TerrainViewController::Place CylinderViewController::place() const {
 }
 
 glm::dvec3 CylinderViewController::aboveFloor(const glm::dvec3& position) const {
-    const double floor = radius_ - groundHeight - clearance();
+    const double floor = radius_ - floorHeight();
     const double fromAxis = std::hypot(position.y, position.z);
     if (fromAxis <= floor) return position;
     const double scale = floor / fromAxis;

@@ -41,7 +41,7 @@ TerrainViewController::Place PlanetViewController::place() const {
 }
 
 glm::dvec3 PlanetViewController::aboveFloor(const glm::dvec3& position) const {
-    const double floor = radius_ + groundHeight + clearance();
+    const double floor = radius_ + floorHeight();
     const double distance = glm::length(position);
     if (distance >= floor) return position;
     // The centre has no direction of its own.

@@ -105,7 +105,7 @@ View TerrainViewController::toDegrees(const View& view) const {
 }
 
 glm::dvec3 TerrainViewController::aboveFloor(const glm::dvec3& position) const {
-    return {position.x, position.y, std::max(position.z, groundHeight + clearance())};
+    return {position.x, position.y, std::max(position.z, floorHeight())};
 }
 
 double TerrainViewController::heightOf(const glm::dvec3& position) const {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 
 namespace terrane {
@@ -33,6 +35,8 @@ public:
 
     View view;
     double groundHeight = 0; ///< of the ground below the camera, metres
+    /// The ground below the camera may be as high as this, metres; the camera stays above it.
+    double highestGround = -std::numeric_limits<double>::infinity();
 
     /// The frame of the camera, which looks along its -z: columns right, up, back, position.
     glm::dmat4 cameraToWorld() const;
@@ -72,6 +76,8 @@ protected:
     virtual double heightOf(const glm::dvec3& position) const;
     /// How many radians a unit of x0 and of y0 in degrees is: 1 for lengths.
     virtual glm::dvec2 groundUnits() const { return {1, 1}; }
+    /// Of the camera, at least, metres.
+    double floorHeight() const { return std::max(groundHeight, highestGround) + clearance(); }
     /// Least height above the ground, metres.
     virtual double clearance() const { return 1; }
 };
