@@ -116,7 +116,7 @@ float stones() {
         float part = shown(4.0 * deformation.radius / exp2(float(level + 1)));
         if (part > 0.0) sum += part * (grain(level) - 0.5);
     }
-    return 0.45 * sum;
+    return 0.55 * sum;
 }
 
 struct Place {
@@ -186,13 +186,15 @@ void main() {
     vec3 skylight = skylightAt(sunHeight);
     Place place = placeAt(up, height, dot(up, normal));
 
-    float lit = max(dot(normal, sunDirection()), 0.0);
-    vec3 light = land(place) * (sunlight * lit / 3.14 + skylight * (0.6 + 0.4 * place.slope));
+    vec3 light;
     if (height < 0.0) {
         light = sea(place, -normalize(way), sunlight, skylight, -height);
         float ice = smoothstep(0.86, 0.97, place.cold);
         vec3 white = vec3(0.70, 0.76, 0.82) * (sunlight * max(sunHeight, 0.0) / 3.14 + skylight);
         light = mix(light, white, ice);
+    } else {
+        float lit = max(dot(normal, sunDirection()), 0.0);
+        light = land(place) * (sunlight * lit / 3.14 + skylight * (0.6 + 0.4 * place.slope));
     }
     colour = vec4(developed(light * airLeft + airLight), 1.0);
 }
