@@ -144,7 +144,8 @@ TEST_CASE_FIXTURE(MethodFixture, "What can't be found is told with its place, th
          "missing-module"},
         {"unknown module", "<setProgram><module name=\"nothing\"/></setProgram>",
          "unknown-resource"},
-        {"unknown texture", "<setTarget><buffer name=\"COLOR0\" texture=\"nothing\"/></setTarget>",
+        {"unknown texture",
+         "<setTarget><buffer name=\"COLOR0\" texture=\"nothing\"/></setTarget>",
          "unknown-resource",
          {0, 0, 0}}, // not on the screen, where it does not belong
         {"method that calls itself", "<callMethod name=\"camera.draw\"/>", "cycle"},
