@@ -44,8 +44,16 @@ const char* __tsan_default_suppressions() {
            "called_from_lib:swrast_dri.so\n"
            "called_from_lib:libgallium\n"
            "called_from_lib:libLLVM\n"
-           // A mutex that may be locked twice, but is initialised where the sanitizer can't see it.
+           // Mutexes that may be locked twice, but are initialised where the sanitizer can't see
+           // it, and that these libraries lock around each other, on the one thread that has
+           // windows.
            "mutex:libGLdispatch.so\n"
+           "mutex:libGLX.so\n"
+           "mutex:libX11.so\n"
+           "mutex:libxcb.so\n"
+           "mutex:libglfw.so\n"
+           "deadlock:libGLX\n"
+           "deadlock:libX11.so\n"
            // LLVM registers what it compiles with the unwinder; of the unwinder's lock the
            // sanitizer sees the taking but, inside LLVM, not the release.
            "deadlock:__register_frame_info\n"
