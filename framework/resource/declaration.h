@@ -47,7 +47,7 @@ struct AttributeDeclaration {
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
     bool minimumExcluded = false;
-    bool infinite = false; ///< numbers: infinity is one
+    bool infinite = false;              ///< numbers: infinity is one
     std::vector<std::string> words;     ///< of enumerations
     std::vector<std::string> aliases;   ///< other accepted spellings of the attribute's name
     bool trueUnlessFalse = false;       ///< booleans: any word but "false" is true
