@@ -83,10 +83,12 @@ bool drawFrames(Player& player, const RunOptions& options, std::ostream& err) {
     return true;
 }
 
-void showFrame(Player& player, PlayerWindow* window) {
-    if (!window || window->closing()) return;
+/// False when the window is to be closed.
+bool showFrame(Player& player, PlayerWindow* window) {
+    if (!window) return true;
+    if (window->closing()) return false;
     window->show(player);
-    window->follow(player);
+    return window->follow(player);
 }
 
 /// Until the window is closed, or so many frames have been shown.
@@ -122,20 +124,22 @@ bool runScript(Player& player, PlayerWindow* window, const RunOptions& options, 
     ScriptRunner runner(player, {.script = options.script.parent_path()},
                         [&](int frame, int frames) {
                             progress.tell(frame, frames);
-                            showFrame(player, window);
+                            return showFrame(player, window);
                         });
     for (const ScriptLine& line : lines) {
-        if (window && window->closing()) break;
-        tell(line, runner.run(line));
+        const std::string problem = runner.run(line);
+        if (window && window->closing()) break; // which stopped the line, and is no failure
+        tell(line, problem);
     }
     return good;
 }
 
 /// Whoever wrote the lines judges the answers: a failed one is no failure of the run.
 void runInteractively(Player& player, PlayerWindow* window, const RunStreams& streams) {
-    ScriptRunner runner(player, {}, [&](int, int) { showFrame(player, window); });
+    ScriptRunner runner(player, {}, [&](int, int) { return showFrame(player, window); });
+    const auto closing = [&] { return window && window->closing(); };
     std::string text;
-    for (int number = 1; std::getline(streams.in, text); ++number) {
+    for (int number = 1; !closing() && std::getline(streams.in, text); ++number) {
         const auto line = parseScriptLine(text, number);
         std::string problem = line ? runner.run(*line) : std::string();
         for (char& c : problem) {

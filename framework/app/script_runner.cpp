@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kNothing = "there is nothing to draw";
+constexpr const char* kStopped = "stopped before its end";
 
 std::string number(double value) {
     char text[32];
@@ -68,7 +69,7 @@ std::string ScriptRunner::run(const ScriptLine& line) {
 
 std::string ScriptRunner::drawFrame(int frame, int frames) {
     if (!player_.frame()) return kNothing;
-    if (observer_) observer_(frame, frames);
+    if (observer_ && !observer_(frame, frames)) return kStopped;
     return {};
 }
 

@@ -22,7 +22,8 @@ struct ScriptFolders {
 };
 
 /// Told after each frame of a command that draws several: how many are drawn, of how many at most.
-using FrameObserver = std::function<void(int frame, int frames)>;
+/// False stops the command.
+using FrameObserver = std::function<bool(int frame, int frames)>;
 
 /// Runs the commands of a script on a loaded player.
 class ScriptRunner {

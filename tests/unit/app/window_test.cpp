@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
@@ -67,6 +68,38 @@ bool skipped(const VirtualDisplay& display) {
     if (!display.running()) MESSAGE("skipped: there is no Xvfb");
     return !display.running();
 }
+
+bool withoutKeys() {
+    const bool without = !VirtualDisplay::act("version");
+    if (without) MESSAGE("skipped: there is no xdotool");
+    return without;
+}
+
+/// Presses Escape in whatever window of ours there is, again and again.
+class EscapePresses {
+public:
+    EscapePresses()
+        : thread_([this] {
+            while (!done_) {
+                count_ +=
+                    VirtualDisplay::act("search --name ' - Terrane$' mousemove 9 9 key Escape");
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            }
+        }) {}
+    ~EscapePresses() {
+        done_ = true;
+        thread_.join();
+    }
+    EscapePresses(const EscapePresses&) = delete;
+    EscapePresses& operator=(const EscapePresses&) = delete;
+
+    int count() const { return count_; }
+
+private:
+    std::atomic<bool> done_{false};
+    std::atomic<int> count_{0};
+    std::thread thread_;
+};
 
 } // namespace
 
@@ -134,6 +167,20 @@ TEST_CASE_FIXTURE(test::TerraneProgram, "play shows frames in a window") {
     const Result fault = run(play + "--frames 1");
     CHECK(fault.status == 1);
     CHECK(fault.err.find("the display has OpenGL 4.1 (llvmpipe") != std::string::npos);
+}
+
+TEST_CASE_FIXTURE(test::TerraneProgram, "Escape ends a script in the middle of a command") {
+    const VirtualDisplay display;
+    if (skipped(display) || withoutKeys()) return;
+    writeColour("0.0, 0.5, 1.0");
+    const EscapePresses presses;
+    const std::string text = "frames 1000000\nmark\n";
+    const Result answers = run("play % --size 64x48 --script -", text);
+    CHECK(answers.out == "error: stopped before its end\n");
+    CHECK(answers.status == 0);
+    write("script", text);
+    CHECK(run("play % --size 64x48 --script %/script").status == 0);
+    CHECK(presses.count() > 1);
 }
 
 TEST_CASE_FIXTURE(test::TerraneProgram, "a window does not hide errors of an archive") {
