@@ -157,6 +157,7 @@ bool Player::frame() {
     context_->makeCurrent();
     const Clock::time_point begin = Clock::now();
     const bool moved = controller_->view != lastView_;
+    followSize();
     advanceTime();
     placeCamera();
     clear();
@@ -196,6 +197,11 @@ bool Player::drawUntilComplete(int mostFrames) {
         if (!frame()) return false;
     }
     return complete();
+}
+
+void Player::followSize() {
+    if (newSize_) target_->resize(newSize_->x, newSize_->y);
+    newSize_.reset();
 }
 
 void Player::advanceTime() {
@@ -251,10 +257,8 @@ Image Player::capture() {
 }
 
 void Player::resize(int width, int height) {
-    if (width == target_->width() && height == target_->height()) return;
-    context_->makeCurrent();
-    target_->resize(width, height);
-    quietFrames_ = 0;
+    newSize_ = glm::ivec2(width, height);
+    if (width != target_->width() || height != target_->height()) quietFrames_ = 0;
 }
 
 std::optional<glm::dvec3> Player::groundAt(double x, double y) {

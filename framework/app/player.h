@@ -76,7 +76,8 @@ public:
 
     /// The last frame; RGB. Waits for OpenGL.
     Image capture();
-    /// Changes the size of the picture, for the next frame; at least 1 x 1.
+    /// The size of the picture from the next frame on; at least 1 x 1. Only when drawable(). Until
+    /// then the last frame stays as it is.
     void resize(int width, int height);
     /// What the frames are drawn into. Only when drawable().
     const RenderTarget& picture() const { return *target_; }
@@ -122,6 +123,7 @@ private:
     bool setScheduler();
     void observe(Scheduler& scheduler);
     void setStartView();
+    void followSize();
     void advanceTime();
     void placeCamera();
     void clear();
@@ -149,7 +151,8 @@ private:
     std::unique_ptr<TerrainViewController> controller_;
 
     Clock::time_point start_{};
-    double time_ = 0, elapsed_ = 0; ///< seconds
+    std::optional<glm::ivec2> newSize_; ///< of the next frame
+    double time_ = 0, elapsed_ = 0;     ///< seconds
     int frames_ = 0;
     int quietFrames_ = 0;
     View lastView_;

@@ -84,6 +84,10 @@ TEST_CASE("a picture changes its size between frames") {
     REQUIRE(player.drawUntilComplete());
     player.resize(40, 30);
     CHECK(!player.complete());
+    // Until the next frame is drawn, the last one can be seen.
+    const Image last = player.capture();
+    CHECK(last.width == 8);
+    CHECK(int(last.row(7)[2]) == 255);
     REQUIRE(player.frame());
     const Image image = player.capture();
     CHECK(image.width == 40);
