@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <istream>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
@@ -21,10 +22,26 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Standard error: whole messages, one after the other, as workers have something to tell, too.
+class Messages {
+public:
+    explicit Messages(std::ostream& stream)
+        : stream_(stream) {}
+
+    void tell(const std::string& text) {
+        const std::lock_guard lock(mutex_);
+        stream_ << text << std::flush;
+    }
+
+private:
+    std::ostream& stream_;
+    std::mutex mutex_;
+};
+
 /// Tells how far a long run is, every other second after the first.
 class Progress {
 public:
-    Progress(std::ostream& err, bool told)
+    Progress(Messages& err, bool told)
         : err_(err)
         , told_(told) {}
 
@@ -32,13 +49,12 @@ public:
         const Clock::time_point now = Clock::now();
         if (!told_ || now < next_) return;
         next_ = now + std::chrono::seconds(2);
-        err_ << "frame " << frame;
-        if (frames >= 0) err_ << " of " << frames;
-        err_ << std::endl;
+        const std::string of = frames >= 0 ? " of " + std::to_string(frames) : std::string();
+        err_.tell("frame " + std::to_string(frame) + of + "\n");
     }
 
 private:
-    std::ostream& err_;
+    Messages& err_;
     const bool told_;
     Clock::time_point next_ = Clock::now() + std::chrono::seconds(1);
 };
@@ -50,10 +66,11 @@ LogLevel levelOf(Severity severity) {
 }
 
 /// Pictures look plainer without a GPU; nobody should have to guess why.
-void tellSoftware(Player& player, const RunOptions& options, std::ostream& err) {
+void tellSoftware(Player& player, const RunOptions& options, Messages& err) {
     const bool capped = player.isSoftware() && options.player.maxAnisotropy == 0;
     if (capped && options.logLevel <= LogLevel::info)
-        err << "drawn in software, without anisotropic filtering (--max-anisotropy N overrides)\n";
+        err.tell("drawn in software, without anisotropic filtering "
+                 "(--max-anisotropy N overrides)\n");
 }
 
 /// What an archive is called: "mountains" of archives/mountains/, with or without archive.xml;
@@ -68,7 +85,7 @@ bool isInteractive(const RunOptions& options) {
     return options.script == "-";
 }
 
-bool drawFrames(Player& player, const RunOptions& options, std::ostream& err) {
+bool drawFrames(Player& player, const RunOptions& options, Messages& err) {
     const int frames = options.frames;
     Progress progress(err, options.logLevel <= LogLevel::info);
     for (int i = 0; i < (frames < 0 ? kMostFrames : frames); ++i) {
@@ -77,7 +94,7 @@ bool drawFrames(Player& player, const RunOptions& options, std::ostream& err) {
         progress.tell(i + 1, frames);
     }
     if (frames < 0 && !player.complete()) {
-        err << "the picture is not complete after " << kMostFrames << " frames\n";
+        err.tell("the picture is not complete after " + std::to_string(kMostFrames) + " frames\n");
         return false;
     }
     return true;
@@ -103,10 +120,10 @@ bool showFrames(Player& player, PlayerWindow& window, const RunOptions& options)
 
 /// Runs all lines, also after one that failed, so that one run tells everything.
 /// A window shows each frame, and ends the script when it is closed.
-bool runScript(Player& player, PlayerWindow* window, const RunOptions& options, std::ostream& err) {
+bool runScript(Player& player, PlayerWindow* window, const RunOptions& options, Messages& err) {
     const auto text = readFile(options.script);
     if (!text) {
-        err << "can't read the script " << shownPath(options.script) << "\n";
+        err.tell("can't read the script " + shownPath(options.script) + "\n");
         return false;
     }
     const std::vector<ScriptLine> lines = parseScript(*text);
@@ -114,8 +131,8 @@ bool runScript(Player& player, PlayerWindow* window, const RunOptions& options, 
     const auto tell = [&](const ScriptLine& line, const std::string& problem) {
         if (problem.empty()) return;
         good = false;
-        err << shownPath(options.script) << ":" << line.number << ": error: " << problem << "\n"
-            << "    " << line.text << "\n";
+        err.tell(shownPath(options.script) + ":" + std::to_string(line.number) +
+                 ": error: " + problem + "\n    " + line.text + "\n");
     };
     for (const ScriptLine& line : lines)
         tell(line, line.problem);
@@ -149,17 +166,17 @@ void runInteractively(Player& player, PlayerWindow* window, const RunStreams& st
     }
 }
 
-bool write(const fs::path& path, const std::string& text, std::ostream& err) {
+bool write(const fs::path& path, const std::string& text, Messages& err) {
     if (path.empty() || writeFile(path, text)) return true;
-    err << "can't write " << shownPath(path) << "\n";
+    err.tell("can't write " + shownPath(path) + "\n");
     return false;
 }
 
-bool writeResults(Player& player, const RunOptions& options, std::ostream& err) {
+bool writeResults(Player& player, const RunOptions& options, Messages& err) {
     bool good = true;
     if (!options.screenshot.empty() && player.frames() > 0 &&
         !writePng(options.screenshot, player.capture())) {
-        err << "can't write " << shownPath(options.screenshot) << "\n";
+        err.tell("can't write " + shownPath(options.screenshot) + "\n");
         good = false;
     }
     if (!options.metrics.empty())
@@ -171,6 +188,7 @@ bool writeResults(Player& player, const RunOptions& options, std::ostream& err) 
 } // namespace
 
 int run(const Registry& registry, const RunOptions& options, const RunStreams& streams) {
+    Messages err(streams.err); // used by the player's workers to its end
     PlayerOptions playerOptions = options.player;
     playerOptions.recordFrames = !options.metrics.empty() || !options.script.empty();
     playerOptions.trace = !options.trace.empty();
@@ -178,23 +196,22 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     if (options.window) window.emplace(nameOf(playerOptions.archive)).install(playerOptions);
     Player player(registry, playerOptions);
     player.diagnostics().onReport([&](const Diagnostic& diagnostic) {
-        if (levelOf(diagnostic.severity) >= options.logLevel)
-            streams.err << toString(diagnostic) << std::flush;
+        if (levelOf(diagnostic.severity) >= options.logLevel) err.tell(toString(diagnostic));
     });
     bool good = player.load();
-    tellSoftware(player, options, streams.err);
+    tellSoftware(player, options, err);
     if (good && isInteractive(options))
         runInteractively(player, window ? &*window : nullptr, streams);
     else if (good && !options.script.empty())
-        good = runScript(player, window ? &*window : nullptr, options, streams.err);
+        good = runScript(player, window ? &*window : nullptr, options, err);
     else if (good && window)
         good = showFrames(player, *window, options);
     else if (good)
-        good = drawFrames(player, options, streams.err);
+        good = drawFrames(player, options, err);
     // What a run that failed early can tell of itself is still worth having.
-    if (player.resources()) good &= writeResults(player, options, streams.err);
+    if (player.resources()) good &= writeResults(player, options, err);
     if (good && player.frames() == 0 && !options.screenshot.empty()) {
-        streams.err << "no frame has been drawn that a screenshot could show\n";
+        err.tell("no frame has been drawn that a screenshot could show\n");
         good = false;
     }
     if (!options.player.keepGoing) good &= player.diagnostics().errors() == 0;
