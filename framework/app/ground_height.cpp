@@ -34,6 +34,11 @@ glm::dvec3 direction(double longitude, double latitude) {
 
 } // namespace
 
+glm::dvec3 inFrameOf(const TerrainNode& terrain, const glm::dvec3& world) {
+    const glm::dmat4 worldToLocal = glm::inverse(terrain.state().localToWorld);
+    return glm::dvec3(worldToLocal * glm::dvec4(world, 1));
+}
+
 std::optional<TerrainPlace> terrainPlace(const std::vector<TerrainNode*>& terrains, double x,
                                          double y) {
     if (terrains.empty()) return std::nullopt;
@@ -63,8 +68,7 @@ bool isSamePlanet(const TerrainNode& a, const TerrainNode& b) {
 }
 
 glm::dvec3 toLocal(const TerrainNode& terrain, const glm::dvec3& world) {
-    const glm::dmat4 worldToLocal = glm::inverse(terrain.state().localToWorld);
-    return terrain.deformation().deformedToLocal(glm::dvec3(worldToLocal * glm::dvec4(world, 1)));
+    return terrain.deformation().deformedToLocal(inFrameOf(terrain, world));
 }
 
 glm::dvec3 toWorld(const TerrainNode& terrain, const glm::dvec2& local, double height) {

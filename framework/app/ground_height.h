@@ -20,6 +20,10 @@ struct TerrainPlace {
     glm::dvec2 local{0}; ///< metres
 };
 
+/// A point of the world in the frame of a terrain's node, where its deformation puts the ground.
+/// As of the last frame.
+glm::dvec3 inFrameOf(const TerrainNode& terrain, const glm::dvec3& world);
+
 /// The place that a script names by two numbers: of the first terrain in local metres, or, if that
 /// is a face of a planet, longitude and latitude in degrees, on the face that is there. Nothing
 /// when it is on no terrain. As of the last frame.

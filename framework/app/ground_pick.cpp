@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/ground_pick.h"
 
+#include "app/ground_height.h"
 #include "render/render_target.h"
 #include "terrain/cylindrical_deformation.h"
 #include "terrain/spherical_deformation.h"
@@ -18,7 +19,8 @@ namespace {
 /// (terrain reference 6).
 constexpr double kPlanetLimit = 1.1, kFlatLimit = 2;
 
-bool isNear(const glm::dvec3& point, const TerrainNode& terrain) {
+bool isNear(const glm::dvec3& world, const TerrainNode& terrain) {
+    const glm::dvec3 point = inFrameOf(terrain, world);
     const Deformation& shape = terrain.deformation();
     const double size = kFlatLimit * terrain.parameters().size;
     if (dynamic_cast<const SphericalDeformation*>(&shape))

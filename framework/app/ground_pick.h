@@ -19,7 +19,7 @@ std::optional<glm::dvec3> pointAt(const RenderTarget& picture, const glm::dmat4&
 
 /// Whether a point of the world can be ground: within twice a flat terrain's size, or nearly on a
 /// planet or cylinder. What else has a depth (sky, sun, clouds) can't be dragged (terrain reference
-/// 6). Anything can where there is no terrain.
+/// 6). Anything can where there is no terrain. As of the last frame.
 bool isNearTerrain(const glm::dvec3& point, const std::vector<TerrainNode*>& terrains);
 
 } // namespace terrane

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/player.h"
+#include "archive_edits.h"
 #include "archive_folder.h"
 #include "environment.h"
 #include "render/context_attempt.h"
@@ -128,5 +129,21 @@ TEST_CASE("a player knows the point of the ground below a pixel") {
     player.controller().view = {.theta = 1.5, .d = 5000}; // the ground ends below the sky
     REQUIRE(player.drawUntilComplete());
     CHECK(!player.groundAt(80, 2));
+    checkSilent(player);
+}
+
+TEST_CASE("ground far from the world's origin is ground, too") {
+    ArchiveFolder folder;
+    folder.write("quadtree.glsl", edited(archive("quadtree") / "quadtree.glsl", {}));
+    const std::string node = "<node name=\"ground\" flags=\"object\">";
+    folder.write("archive.xml", edited(archive("quadtree") / "archive.xml",
+                                       {{node, node + "<translate x=\"40000\" y=\"-5000\"/>"}}));
+    Player player(standardRegistry(), {.archive = folder.path(), .width = 160, .height = 120});
+    REQUIRE(player.load());
+    player.controller().view = {.x0 = 40020, .y0 = -5030, .theta = 0.8, .phi = 0.4, .d = 300};
+    REQUIRE(player.drawUntilComplete());
+    const auto centre = player.groundAt(80, 60);
+    REQUIRE(centre);
+    CHECK(glm::distance(*centre, glm::dvec3(40020, -5030, 0)) < 4);
     checkSilent(player);
 }
