@@ -33,10 +33,10 @@ void reportFaults(const ResidualFile& file, const ResidualDescription& d,
 }
 
 // A file whose header makes no sense is none: the ground has no residuals, but there is ground.
-void parse(const ResidualDescription& d, ResidualPyramid::Parameters& parameters,
-           Diagnostics& diagnostics) {
+void parse(const ResidualDescription& d, std::shared_ptr<const RandomAccessFile> file,
+           ResidualPyramid::Parameters& parameters, Diagnostics& diagnostics) {
     std::string problem;
-    parameters.file = ResidualFile::parse(parameters.mapped->bytes(), problem);
+    parameters.file = ResidualFile::parse(std::move(file), problem);
     if (parameters.file) return reportFaults(*parameters.file, d, diagnostics);
     diagnostics.error("damaged-file", d.file.place,
                       "'" + d.file->name + "' is damaged or no residual file: " + problem,
@@ -47,11 +47,14 @@ bool open(const ResidualDescription& d, BuildContext& context,
           ResidualPyramid::Parameters& parameters) {
     const auto path = context.findFile(d.file->name, d.file.place);
     if (!path) return false;
-    parameters.mapped = MappedFile::open(*path);
-    if (parameters.mapped) return parse(d, parameters, context.diagnostics()), true;
-    context.diagnostics().error("file-unreadable", d.file.place,
-                                "can't read '" + d.file->name + "'");
-    return false;
+    auto file = RandomAccessFile::open(*path);
+    if (!file) {
+        context.diagnostics().error("file-unreadable", d.file.place,
+                                    "can't read '" + d.file->name + "'");
+        return false;
+    }
+    parse(d, std::move(file), parameters, context.diagnostics());
+    return true;
 }
 
 bool checkStorage(const ResidualDescription& d, const CpuFloatTileStorage& storage,
@@ -83,34 +86,48 @@ std::optional<int> deltaOf(const ResidualDescription& d, const ResidualFile* fil
                                 "'" + d.file->name + "' is a sub-pyramid: its delta is 0");
         return 0;
     }
-    if (d.delta <= header.minLevel) return d.delta;
+    const int largest = file->largestDelta();
+    if (d.delta <= largest) return d.delta;
     diagnostics.error("out-of-range", d.delta.place,
                       "delta is " + std::to_string(*d.delta) + ", but '" + d.file->name +
-                          "' allows " + std::to_string(header.minLevel) + " at most",
-                      "0 to " + std::to_string(header.minLevel));
+                          "' allows " + std::to_string(largest) + " at most",
+                      largest > 0 ? "0 to " + std::to_string(largest) : "0");
     return std::nullopt;
 }
 
 std::unique_ptr<ResidualPyramid> makePyramid(const ResidualDescription& d, BuildContext& context);
 
-// Nested files refine parts of this one: their tiles must be as large.
+// Nested files refine parts of the one around them (terrain reference 4.1): they are sub-pyramids
+// with tiles as large.
+bool checkPart(const ResidualDescription& d, const ResidualHeader& part,
+               const ResidualDescription& whole, const ResidualHeader& header,
+               Diagnostics& diagnostics) {
+    const std::string right = std::to_string(header.tileSize);
+    if (part.rootLevel == 0) {
+        diagnostics.error("wrong-kind", d.file.place,
+                          "'" + d.file->name + "' is a whole pyramid and can't refine '" +
+                              whole.file->name + "': its root level is 0",
+                          "a sub-pyramid with tiles of " + right +
+                              ", whose root level is that of the tile that it refines");
+        return false;
+    }
+    if (part.tileSize == header.tileSize) return true;
+    diagnostics.error("wrong-tile-size", d.file.place,
+                      "'" + d.file->name + "' has tiles of " + std::to_string(part.tileSize) +
+                          " and can't refine '" + whole.file->name + "'",
+                      "a file with tiles of " + right);
+    return false;
+}
+
 void addParts(const ResidualDescription& d, BuildContext& context,
               ResidualPyramid::Parameters& parameters) {
     for (const Child& child : d.children) {
         const auto* const nested = child.as<ResidualDescription>();
         auto part = makePyramid(*nested, context);
         if (!part || !part->file() || !parameters.file) continue;
-        const int size = part->file()->header().tileSize;
-        const int right = parameters.file->header().tileSize;
-        if (size == right) {
+        if (checkPart(*nested, part->file()->header(), d, parameters.file->header(),
+                      context.diagnostics()))
             parameters.parts.push_back(std::move(part));
-            continue;
-        }
-        context.diagnostics().error("wrong-tile-size", nested->file.place,
-                                    "'" + nested->file->name + "' has tiles of " +
-                                        std::to_string(size) + " and can't refine '" +
-                                        d.file->name + "'",
-                                    "a file with tiles of " + std::to_string(right));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "plugins/terrain/tiff_tile.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -18,6 +19,12 @@ constexpr int kDeepestOfAll = 30;      // coordinates are 32-bit integers
 // Levels of full tiles below the first: a table of 4^16 entries would be larger than 32-bit
 // offsets reach.
 constexpr int kDeepest = 15;
+// Twice what the largest tile needs without compression, so that a damaged table does not fill the
+// memory.
+constexpr std::uint64_t kMostTileBytes = 64 << 20;
+static_assert(kMostTileBytes >= 4ull * ResidualFile::kLargestTile * ResidualFile::kLargestTile);
+
+const char* const kCutShort = "the file was cut short";
 
 std::uint32_t unsignedAt(std::span<const std::byte> bytes, std::size_t offset) {
     std::uint32_t value = 0;
@@ -63,15 +70,38 @@ std::string problemOf(const ResidualHeader& h) {
 
 } // namespace
 
-ResidualFile::ResidualFile(std::span<const std::byte> bytes, const ResidualHeader& header)
-    : bytes_(bytes)
+ResidualFile::ResidualFile(Source source, const ResidualHeader& header)
+    : source_(std::move(source))
     , header_(header) {}
+
+std::optional<ResidualFile> ResidualFile::parse(std::shared_ptr<const RandomAccessFile> file,
+                                                std::string& problem) {
+    const std::uint64_t size = file->size();
+    auto read = [file = std::move(file)](std::uint64_t offset, std::span<std::byte> out) {
+        return file->read(offset, out);
+    };
+    return parse(Source{size, std::move(read)}, problem);
+}
 
 std::optional<ResidualFile> ResidualFile::parse(std::span<const std::byte> bytes,
                                                 std::string& problem) {
-    if (bytes.size() < kHeaderBytes) {
-        problem = "it has " + std::to_string(bytes.size()) + " bytes; its header alone needs " +
+    const auto read = [bytes](std::uint64_t offset, std::span<std::byte> out) {
+        if (offset > bytes.size() || out.size() > bytes.size() - offset) return false;
+        std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), out.size(), out.begin());
+        return true;
+    };
+    return parse(Source{bytes.size(), read}, problem);
+}
+
+std::optional<ResidualFile> ResidualFile::parse(Source source, std::string& problem) {
+    if (source.size < kHeaderBytes) {
+        problem = "it has " + std::to_string(source.size) + " bytes; its header alone needs " +
                   std::to_string(kHeaderBytes);
+        return std::nullopt;
+    }
+    std::array<std::byte, kHeaderBytes> bytes{};
+    if (!source.read(0, bytes)) {
+        problem = kCutShort;
         return std::nullopt;
     }
     const auto integer = [&](std::size_t i) { return static_cast<int>(unsignedAt(bytes, 4 * i)); };
@@ -89,17 +119,22 @@ std::optional<ResidualFile> ResidualFile::parse(std::span<const std::byte> bytes
     const std::uint64_t tiles =
         static_cast<std::uint64_t>(header.minLevel) + tilesBefore(fullLevels);
     const std::uint64_t needed = kHeaderBytes + kEntryBytes * tiles;
-    if (needed > bytes.size()) {
+    if (needed > source.size) {
         problem = "its header speaks of " + std::to_string(tiles) +
                   " tiles, whose table alone needs " + std::to_string(needed) +
-                  " bytes, but it has " + std::to_string(bytes.size());
+                  " bytes, but it has " + std::to_string(source.size);
         return std::nullopt;
     }
-    ResidualFile file(bytes, header);
+    std::vector<std::byte> table(kEntryBytes * tiles);
+    if (!source.read(kHeaderBytes, table)) {
+        problem = kCutShort;
+        return std::nullopt;
+    }
+    ResidualFile file(std::move(source), header);
     file.firstByte_ = needed;
     file.offsets_.resize(2 * tiles);
     for (std::size_t i = 0; i < file.offsets_.size(); ++i)
-        file.offsets_[i] = unsignedAt(bytes, kHeaderBytes + 4 * i);
+        file.offsets_[i] = unsignedAt(table, 4 * i);
     return file;
 }
 
@@ -146,7 +181,7 @@ TileId ResidualFile::tileAt(std::size_t index) const {
 
 std::optional<ResidualFile::Range> ResidualFile::rangeAt(std::size_t index) const {
     const Range range{firstByte_ + offsets_[2 * index], firstByte_ + offsets_[2 * index + 1]};
-    if (range.begin >= range.end || range.end > bytes_.size()) return std::nullopt;
+    if (range.begin >= range.end || range.end > source_.size) return std::nullopt;
     return range;
 }
 
@@ -170,9 +205,18 @@ std::vector<std::int16_t> ResidualFile::read(const TileId& tile, std::string& pr
         problem = "its bytes are not inside the file";
         return {};
     }
+    const std::uint64_t size = found->end - found->begin;
+    if (size > kMostTileBytes) {
+        problem = "it has " + std::to_string(size) + " bytes, more than any tile needs";
+        return {};
+    }
+    std::vector<std::byte> bytes(size);
+    if (!source_.read(found->begin, bytes)) {
+        problem = kCutShort;
+        return {};
+    }
     const int width = tileWidth(tile.level);
-    auto image = decodeTiffTile(bytes_.subspan(found->begin, found->end - found->begin),
-                                header_.tileSize + kRest, problem);
+    auto image = decodeTiffTile(bytes, header_.tileSize + kRest, problem);
     if (!image) return {};
     if (image->width == width && image->height == width) return std::move(image->values);
     // The original's writer shares the bytes of tiles that are all zero, whatever their sizes

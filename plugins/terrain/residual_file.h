@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/random_access_file.h"
 #include "producer/tile_id.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,8 +29,9 @@ struct ResidualHeader {
 /// above in all others (terrain reference 4.1). Levels 0 to minLevel are one tile each, of doubling
 /// size; from there on all tiles have the same size, and each level four times as many.
 ///
-/// A view of bytes, which must outlive it; immutable, so any thread may read. Takes any bytes: what
-/// is wrong with the whole is told by parse(), what is wrong with a tile by read().
+/// Immutable, so any thread may read. Keeps the table of the tiles, and fetches the bytes of a tile
+/// when it is asked for. Takes any bytes, and a file that is cut short in the meantime: what is
+/// wrong with the whole is told by parse(), what is wrong with a tile by read().
 class ResidualFile {
 public:
     static constexpr int kBorder = 2;
@@ -36,10 +41,16 @@ public:
 
     /// Nothing, with the reason for people to read, when the header is no header of such a file or
     /// the table of its tiles is not all there. Offsets of single tiles may still be wrong.
+    static std::optional<ResidualFile> parse(std::shared_ptr<const RandomAccessFile> file,
+                                             std::string& problem);
+    /// @param bytes of such a file; must outlive what is returned
     static std::optional<ResidualFile> parse(std::span<const std::byte> bytes,
                                              std::string& problem);
 
     const ResidualHeader& header() const { return header_; }
+    /// The deepest level that is one tile, which may be the root of what is asked for (terrain
+    /// reference 4.1, delta).
+    int largestDelta() const { return std::min(header_.minLevel, header_.maxLevel); }
     std::size_t tiles() const { return offsets_.size() / 2; }
 
     /// Levels and coordinates of tiles are those of the pyramid that a sub-pyramid belongs to.
@@ -68,7 +79,14 @@ public:
     std::vector<std::int16_t> read(const TileId& tile, std::string& problem) const;
 
 private:
-    ResidualFile(std::span<const std::byte> bytes, const ResidualHeader& header);
+    /// Where the bytes come from.
+    struct Source {
+        std::uint64_t size = 0;
+        /// Fills the span with the bytes from an offset on; false when they are not all there.
+        std::function<bool(std::uint64_t offset, std::span<std::byte> out)> read;
+    };
+    ResidualFile(Source source, const ResidualHeader& header);
+    static std::optional<ResidualFile> parse(Source source, std::string& problem);
 
     /// Level of a tile, counted from the root of this file.
     int ownLevel(int level) const { return level - header_.rootLevel; }
@@ -76,7 +94,7 @@ private:
     std::optional<Range> rangeAt(std::size_t index) const;
     TileId tileAt(std::size_t index) const;
 
-    std::span<const std::byte> bytes_;
+    Source source_;
     ResidualHeader header_;
     std::uint64_t firstByte_ = 0;        ///< that offsets count from
     std::vector<std::uint32_t> offsets_; ///< begin and end of each tile

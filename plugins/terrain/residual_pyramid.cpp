@@ -22,7 +22,7 @@ ResidualPyramid::ResidualPyramid(Parameters parameters, Diagnostics& diagnostics
     : parameters_(std::move(parameters))
     , file_(file())
     , diagnostics_(diagnostics) {
-    assert(!file_ || (parameters_.delta >= 0 && parameters_.delta <= file_->header().minLevel));
+    assert(!file_ || (parameters_.delta >= 0 && parameters_.delta <= file_->largestDelta()));
 }
 
 void ResidualPyramid::report(const TileId& tile, const std::string& problem) const {
@@ -89,11 +89,9 @@ void ResidualPyramid::readFileTile(const TileId& tile, ElevationView<float> out)
 // Empty when there are none.
 std::vector<std::int16_t> ResidualPyramid::units(const TileId& tile) const {
     if (!file_->hasTile(tile)) return {};
-    const auto range = file_->range(tile);
-    if (!range) return {}; // told when the file was opened
-    std::string problem = "the file was cut short";
-    std::vector<std::int16_t> values;
-    if (parameters_.mapped->covers(range->end)) values = file_->read(tile, problem);
+    if (!file_->range(tile)) return {}; // told when the file was opened
+    std::string problem;
+    std::vector<std::int16_t> values = file_->read(tile, problem);
     if (values.empty()) report(tile, problem);
     return values;
 }
@@ -108,7 +106,7 @@ void ResidualPyramid::readRoot(ElevationView<float> out) const {
         const auto edge = static_cast<std::size_t>(width);
         child.assign(edge * edge, 0.0f);
         const ElevationView<float> view{child.data(), edge};
-        if (file_->hasTile({level, 0, 0})) readFileTile({level, 0, 0}, view);
+        readFileTile({level, 0, 0}, view);
         if (level > 0) addUpsampled({parent.data(), parentEdge}, view, width);
         parent.swap(child);
     }

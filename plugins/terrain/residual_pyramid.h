@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/diagnostic.h"
-#include "core/mapped_file.h"
 #include "plugins/terrain/residual_file.h"
 #include "plugins/terrain/upsample.h"
 
@@ -22,13 +21,12 @@ public:
     static constexpr int kDeepestWithoutFile = 32; // terrain reference 1.7
 
     struct Parameters {
-        std::string name;                   ///< of the file, for messages
-        Place place;                        ///< where the archive names it
-        std::unique_ptr<MappedFile> mapped; ///< the bytes that `file` looks at
+        std::string name; ///< of the file, for messages
+        Place place;      ///< where the archive names it
         std::optional<ResidualFile> file;
         float scale = 1; ///< multiplies the file's own
         /// Levels of the file's tiles are that much more than those that are asked for, and the
-        /// root stands for all that is above it; from 0 to the file's minLevel.
+        /// root stands for all that is above it; from 0 to the file's largestDelta().
         int delta = 0;
         std::vector<std::unique_ptr<ResidualPyramid>> parts; ///< with files
     };

@@ -24,7 +24,7 @@ const S* storageAs(const TileCache& cache, const Place& reference, const std::st
 std::string sizesForDeltas(const ResidualPyramid& residuals) {
     const ResidualFile& file = *residuals.file();
     std::string deltas, sizes;
-    for (int delta = 0; delta <= file.header().minLevel; ++delta) {
+    for (int delta = 0; delta <= file.largestDelta(); ++delta) {
         const char* const comma = delta > 0 ? ", " : "";
         deltas += comma + std::to_string(delta);
         sizes += comma + std::to_string(file.tileWidth(delta));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a tile of a residual pyramid costs a worker: unpacking it, and adding it to its parent.
-#include "core/mapped_file.h"
+#include "core/random_access_file.h"
 #include "plugins/terrain/residual_file.h"
 #include "plugins/terrain/upsample.h"
 
@@ -8,7 +8,9 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace terrane::bench {
@@ -18,10 +20,10 @@ namespace {
 void decodeResidualTile(benchmark::State& state) {
     const char* const folder = std::getenv("TERRANE_TEST_DATA");
     const auto path = std::filesystem::path(folder ? folder : ".") / "rainier" / "DEM.dat";
-    const auto mapped = MappedFile::open(path);
-    if (!mapped) return state.SkipWithError("no rainier/DEM.dat in TERRANE_TEST_DATA");
+    std::shared_ptr<const RandomAccessFile> bytes = RandomAccessFile::open(path);
+    if (!bytes) return state.SkipWithError("no rainier/DEM.dat in TERRANE_TEST_DATA");
     std::string problem;
-    const auto file = ResidualFile::parse(mapped->bytes(), problem);
+    const auto file = ResidualFile::parse(std::move(bytes), problem);
     if (!file) return state.SkipWithError(problem.c_str());
     int tile = 0;
     for (auto _ : state) {

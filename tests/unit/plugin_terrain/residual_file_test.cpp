@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/files.h"
 #include "plugin_terrain/residual_oracle.h"
 #include "plugin_terrain/tiff_writer.h"
 #include "plugins/terrain/residual_file.h"
+#include "temporary_folder.h"
 
 #include <bit>
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <limits>
+#include <memory>
 #include <span>
 
 using namespace terrane;
@@ -225,6 +229,38 @@ TEST_CASE(
     CHECK(file->read({2, 0, 1}, problem).empty());
     CHECK(problem == "it has 14x14 pixels");
     CHECK(file->read({2, 1, 1}, problem) == test::smallPyramidValues(2, 1, 1));
+}
+
+TEST_CASE("A file that is cut short while it is read is told as such") {
+    const std::string good = test::smallPyramid().bytes();
+    test::TemporaryFolder folder;
+    const auto path = folder.file("DEM.dat", good);
+    // Of 6 tiles, whose table ends at byte 76.
+    for (const std::size_t length : {0, 27, 28, 75, 76}) {
+        CAPTURE(length);
+        REQUIRE(writeFile(path, good));
+        std::shared_ptr<const RandomAccessFile> bytes = RandomAccessFile::open(path);
+        REQUIRE(bytes);
+        std::filesystem::resize_file(path, length);
+        std::string problem;
+        const auto file = ResidualFile::parse(std::move(bytes), problem);
+        REQUIRE(file.has_value() == (length == 76));
+        if (file) CHECK(file->read({2, 1, 1}, problem).empty());
+        CHECK(problem == "the file was cut short");
+    }
+}
+
+TEST_CASE("A table that makes a tile of a whole disk is damage") {
+    const std::string good = test::smallPyramid().bytes();
+    test::TemporaryFolder folder;
+    const auto path = folder.file("DEM.dat", withField(good, 28 + 4, 1u << 31));
+    std::filesystem::resize_file(path, 3ull << 30); // a hole
+    std::string problem;
+    const auto file = ResidualFile::parse(RandomAccessFile::open(path), problem);
+    REQUIRE(file);
+    CHECK(file->read({0, 0, 0}, problem).empty());
+    CHECK(problem == "it has 2147483648 bytes, more than any tile needs");
+    CHECK(file->read({1, 0, 0}, problem) == test::smallPyramidValues(1, 0, 0));
 }
 
 TEST_CASE("Cut at any byte or with any byte changed, a file is read or refused") {

@@ -276,6 +276,7 @@ TEST_CASE_FIXTURE(ResidualFixture,
 
 TEST_CASE_FIXTURE(ResidualFixture, "What does not fit the file is told where the archive says it") {
     write("part.dat", part(16).bytes());
+    write("small.dat", smallPyramid().bytes().replace(4, 4, littleEndian(0))); // its maxLevel
     write("garbage.dat", "This is no pyramid, but it has more bytes than a header.");
     const std::string e = "<elevationProducer name=\"e\" cache=\"g\" residuals=\"r\" "
                           "gridSize=\"4\"/>\n";
@@ -299,6 +300,9 @@ TEST_CASE_FIXTURE(ResidualFixture, "What does not fit the file is told where the
          "wrong-storage", "c\" f", "a cache with a cpuFloatTileStorage"},
         {"a delta too many", cpuCache("c", 13) + residuals("file=\"DEM.dat\" delta=\"2\""),
          "out-of-range", "2\"/>", "0 to 1"},
+        {"a delta below the deepest level",
+         cpuCache("c", 13) + residuals("file=\"small.dat\" delta=\"1\""), "out-of-range", "1\"/>",
+         "0"},
         {"a missing file", cpuCache("c", 13) + residuals("file=\"DEM.da\""), "file-missing",
          "DEM.da\"", ""},
         {"no pyramid", cpuCache("c", 13) + residuals("file=\"garbage.dat\""), "damaged-file",
@@ -307,6 +311,11 @@ TEST_CASE_FIXTURE(ResidualFixture, "What does not fit the file is told where the
          cpuCache("c", 13) + cpuCache("d", 21) +
              residuals("file=\"DEM.dat\"", "<residualProducer cache=\"d\" file=\"part.dat\"/>"),
          "wrong-tile-size", "part.dat", "a file with tiles of 8"},
+        {"a part that is no sub-pyramid",
+         cpuCache("c", 13) +
+             residuals("file=\"DEM.dat\"",
+                       "<residualProducer cache=\"c\" file=\"small.dat\" delta=\"0\"/>"),
+         "wrong-kind", "small.dat", "a sub-pyramid with tiles of 8, whose root level is "},
         {"elevations for another delta",
          cpuCache("c", 13) + floatCache("g", 13) + residuals("file=\"DEM.dat\"") + e,
          "wrong-tile-size", "13\" nT", "9; for delta 0, 1: 9, 13"},
