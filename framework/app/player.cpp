@@ -92,6 +92,7 @@ bool Player::openContext() {
     target_ = std::make_unique<RenderTarget>(*context_, options_.width, options_.height);
     // Archives count on this (ork reference 4.3).
     target_->framebuffer().state.depth = {true, CompareFunction::less};
+    target_->framebuffer().clear(Planes::all); // a window may show it before the first frame
     return true;
 }
 

@@ -97,6 +97,13 @@ void PlayerWindow::show(const Player& player) {
     window_->present(picture.framebuffer(), picture.width(), picture.height());
 }
 
+void PlayerWindow::showNothing(const Player& player) {
+    while (window_ && !window_->closing()) {
+        show(player);
+        handle(window_->wait());
+    }
+}
+
 bool PlayerWindow::closing() const {
     return window_ && window_->closing();
 }

@@ -41,6 +41,9 @@ public:
     bool follow(Player& player);
     /// After a frame: presents it.
     void show(const Player& player);
+    /// Instead of frames, where there is nothing to draw: an empty picture until it is closed, if
+    /// it was opened at all.
+    void showNothing(const Player& player);
     bool closing() const;
 
 private:

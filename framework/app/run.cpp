@@ -192,6 +192,9 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     PlayerOptions playerOptions = options.player;
     playerOptions.recordFrames = !options.metrics.empty() || !options.script.empty();
     playerOptions.trace = !options.trace.empty();
+    // A window shows what can be drawn, whatever else is wrong; scripts are for what is right.
+    const bool watched = options.window && options.script.empty();
+    playerOptions.keepGoing |= watched;
     std::optional<PlayerWindow> window;
     if (options.window) window.emplace(nameOf(playerOptions.archive)).install(playerOptions);
     Player player(registry, playerOptions);
@@ -208,6 +211,8 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
         good = showFrames(player, *window, options);
     else if (good)
         good = drawFrames(player, options, err);
+    else if (watched && options.frames < 0)
+        window->showNothing(player);
     // What a run that failed early can tell of itself is still worth having.
     if (player.resources()) good &= writeResults(player, options, err);
     if (good && player.frames() == 0 && !options.screenshot.empty()) {

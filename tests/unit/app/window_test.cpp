@@ -190,4 +190,23 @@ TEST_CASE_FIXTURE(test::TerraneProgram, "a window does not hide errors of an arc
     CHECK(result.status == 1);
     CHECK(result.err.find("archive.xml:5:") != std::string::npos);
     CHECK(run("play % --frames 1 --keep-going").status == 0);
+    // What can be drawn is.
+    CHECK(run("play % --size 64x48 --frames 1 --screenshot %/part.png").status == 1);
+    CHECK(run("play % --size 64x48 --frames 1 --keep-going --screenshot %/whole.png").status == 0);
+    REQUIRE(readFile(*this / "part.png"));
+    CHECK(readFile(*this / "part.png") == readFile(*this / "whole.png"));
+}
+
+TEST_CASE_FIXTURE(test::TerraneProgram, "a window without anything to draw waits to be closed") {
+    const VirtualDisplay display;
+    if (skipped(display) || withoutKeys()) return;
+    write("archive.xml", "<archive/>\n");
+    CHECK(run("play % --frames 1").status == 1);
+    const std::chrono::milliseconds open(1500);
+    const auto begin = std::chrono::steady_clock::now();
+    const EscapePresses presses(open);
+    const Result result = run("play %");
+    CHECK(std::chrono::steady_clock::now() - begin >= open);
+    CHECK(result.status == 1);
+    CHECK(result.err.find("[no-root]") != std::string::npos);
 }
