@@ -10,6 +10,7 @@ uniform samplerTile normalSampler;    // normals (x, y): of this level, of the l
 
 uniform mat4 screenToCamera;
 uniform mat4 cameraToWorld;
+uniform mat4 faceToWorld;
 
 #ifdef _VERTEX_
 // From air.glsl.
@@ -78,9 +79,9 @@ float noise(vec3 p) {
 float corner(ivec2 cell, int level) {
     int edge = 1 << level;
     ivec3 onFace = ivec3(2 * cell - edge, edge);
-    mat3 m = deformation.localToWorld;
-    ivec3 onCube = ivec3(round(m[0])) * onFace.x + ivec3(round(m[1])) * onFace.y +
-                   ivec3(round(m[2])) * onFace.z;
+    mat4 m = faceToWorld; // turns by right angles
+    ivec3 onCube = ivec3(round(m[0].xyz)) * onFace.x + ivec3(round(m[1].xyz)) * onFace.y +
+                   ivec3(round(m[2].xyz)) * onFace.z;
     return hash(onCube);
 }
 

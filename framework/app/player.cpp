@@ -241,8 +241,9 @@ void Player::followGround() {
 }
 
 bool Player::isSettled() const {
+    const std::uint64_t last = scene_->frameNumber() - 1;
     return std::all_of(samplers_.begin(), samplers_.end(),
-                       [](const TileSampler* sampler) { return sampler->isSettled(); });
+                       [&](const TileSampler* sampler) { return sampler->isSettled(last); });
 }
 
 void Player::countQuietFrame(bool nothingMade) {

@@ -32,6 +32,10 @@ std::shared_ptr<ElevationReadback> ElevationReadback::of(GpuTileStorage& storage
     auto ranges = LayerRanges::make(bindings, storage.tileSize(), border, diagnostics);
     if (!ranges) return nullptr;
     auto made = std::make_shared<ElevationReadback>(std::move(ranges), storage, timing);
+    if (!made->readback_.usable()) {
+        diagnostics.error("out-of-memory", {}, "no memory to read elevations back into");
+        return nullptr;
+    }
     storage.elevationReadback = made;
     return made;
 }

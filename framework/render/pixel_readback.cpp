@@ -36,6 +36,7 @@ PixelReadback::~PixelReadback() {
 
 void PixelReadback::request(std::uint64_t frame, const Framebuffer& framebuffer, int width,
                             int height, TransferLayout layout) {
+    assert(usable() && "PixelReadback::request(): there is no memory");
     assert(!full() && "PixelReadback::request(): take the results first");
     const auto bytes =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * layout.pixelSize();
@@ -56,9 +57,8 @@ std::span<const std::byte> PixelReadback::take(std::uint64_t frame, const Readba
     Request& request = requests_[first_];
     const bool due = frame >= request.frame + kLatency;
     if (!due || !arrived(request, timing.sameFrameInEachRun)) return {};
-    const std::span<const std::byte> pixels{
-        mapped_ ? mapped_ + static_cast<std::size_t>(first_) * bytes_ : nullptr,
-        mapped_ ? request.bytes : 0};
+    const std::span<const std::byte> pixels{mapped_ + static_cast<std::size_t>(first_) * bytes_,
+                                            request.bytes};
     request = {};
     first_ = (first_ + 1) % kLatency;
     --count_;

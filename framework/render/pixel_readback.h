@@ -38,6 +38,8 @@ public:
     PixelReadback(const PixelReadback&) = delete;
     PixelReadback& operator=(const PixelReadback&) = delete;
 
+    /// False when the driver gave no memory: there is nothing to be had then.
+    bool usable() const { return mapped_ != nullptr; }
     /// No more requests until one is taken.
     bool full() const { return count_ == kLatency; }
     /// Nothing is on its way.

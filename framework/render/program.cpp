@@ -167,6 +167,7 @@ bool Program::readStatus(Diagnostics& diagnostics) {
 }
 
 bool Program::canDraw(PrimitiveMode mode) const {
+    if (fromBinary_) return true; // whose stages only the driver knows
     if (!restrictsInput_) return mode != PrimitiveMode::patches;
     switch (mode) {
     case PrimitiveMode::lines:

@@ -33,8 +33,8 @@ public:
         , scene_(scene) {}
 
     bool run() override {
-        Program* const program = scene_.currentProgram(place_);
-        if (!program || !fits(*program)) return false;
+        Program* const program = scene_.currentProgram(mesh_, place_);
+        if (!program) return false;
         scene_.drawState().framebuffer->use();
         program->use();
         mesh_.draw(count_);
@@ -42,15 +42,6 @@ public:
     }
 
 private:
-    bool fits(const Program& program) const {
-        if (program.canDraw(mesh_.mode())) return true;
-        scene_.resources().diagnostics().error(
-            "wrong-primitives", place_,
-            "program '" + program.name() + "' can't draw what this mesh is made of",
-            "a mesh of the primitives that its geometry or tessellation stage takes");
-        return false;
-    }
-
     Mesh& mesh_;
     int count_;
     Place place_;

@@ -2,6 +2,8 @@
 #include "scene/scene_manager.h"
 
 #include "render/framebuffer.h"
+#include "render/mesh.h"
+#include "render/program.h"
 #include "scene/bind_context.h"
 #include "scene/frame_builder.h"
 
@@ -32,12 +34,19 @@ SceneManager::SceneManager(ResourceManager& resources, const GlContext& context,
 
 SceneManager::~SceneManager() = default;
 
-Program* SceneManager::currentProgram(const Place& place) const {
-    if (!drawState_.program) {
-        resources_.diagnostics().error("no-program", place, "there is no program to draw with",
-                                       "a setProgram before it");
+Program* SceneManager::currentProgram(const Mesh& mesh, const Place& place) const {
+    Program* const program = drawState_.program;
+    Diagnostics& diagnostics = resources_.diagnostics();
+    if (!program) {
+        diagnostics.error("no-program", place, "there is no program to draw with",
+                          "a setProgram before it");
+        return nullptr;
     }
-    return drawState_.program;
+    if (program->canDraw(mesh.mode())) return program;
+    diagnostics.error("wrong-primitives", place,
+                      "program '" + program->name() + "' can't draw what this mesh is made of",
+                      "a mesh of the primitives that its geometry or tessellation stage takes");
+    return nullptr;
 }
 
 void SceneManager::setRoot(Ref<SceneNode> root) {

@@ -45,9 +45,10 @@ public:
     ResourceManager& resources() const { return resources_; }
     const GlContext& context() const { return context_; }
     DrawState& drawState() { return drawState_; }
-    /// The program that a drawing task at this place of the archive is to use; null, with a
-    /// diagnostic ("no-program"), when none was set.
-    Program* currentProgram(const Place& place) const;
+    /// The program that a drawing task at this place of the archive is to draw a mesh with; null,
+    /// with a diagnostic, when none was set ("no-program") or it takes other primitives
+    /// ("wrong-primitives").
+    Program* currentProgram(const Mesh& mesh, const Place& place) const;
     /// The framebuffer that every setTarget attaches its textures to.
     Framebuffer& offscreen() { return *offscreen_; }
     /// Drawing goes here, and so is not seen, where a setTarget failed.

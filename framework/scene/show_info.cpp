@@ -45,7 +45,7 @@ private:
 class ShowInfoTask : public TextTask {
 public:
     ShowInfoTask(const ShowInfoDescription& d, SceneManager& scene)
-        : TextTask(d, scene)
+        : TextTask("ShowInfo", d, scene)
         , colour_((*d.fontColor)[0], (*d.fontColor)[1], (*d.fontColor)[2], 255) {}
 
 private:

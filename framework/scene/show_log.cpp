@@ -29,7 +29,7 @@ glm::u8vec4 colourOf(Severity severity) {
 class ShowLogTask : public TextTask {
 public:
     ShowLogTask(const ShowLogDescription& d, SceneManager& scene)
-        : TextTask(d, scene)
+        : TextTask("ShowLog", d, scene)
         , maxLines_(std::size_t(*d.maxLines)) {}
 
 private:

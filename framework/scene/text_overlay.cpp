@@ -8,8 +8,8 @@
 
 namespace terrane {
 
-TextTask::TextTask(const TextDescription& description, SceneManager& scene)
-    : FrameTask("ShowInfo")
+TextTask::TextTask(const char* name, const TextDescription& description, SceneManager& scene)
+    : FrameTask(name)
     , scene_(scene)
     , font_(description.font)
     , program_(description.fontProgram)

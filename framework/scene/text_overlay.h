@@ -49,7 +49,7 @@ public:
     bool run() override;
 
 protected:
-    TextTask(const TextDescription& description, SceneManager& scene);
+    TextTask(const char* name, const TextDescription& description, SceneManager& scene);
 
     /// Calls line() for each line, the first on top.
     virtual void write() = 0;

@@ -113,7 +113,7 @@ void DrawTerrainTask::gather() {
 }
 
 bool DrawTerrainTask::run() {
-    Program* const program = scene_.currentProgram(place_);
+    Program* const program = scene_.currentProgram(mesh_, place_);
     if (!program) return false;
     if (program != program_) resolve(*program);
     gather();

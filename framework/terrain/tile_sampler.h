@@ -6,6 +6,7 @@
 #include "terrain/terrain_node.h"
 #include "terrain/tile_location.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,9 @@ public:
     const TerrainNode* terrain() const { return terrain_; }
     /// Whether the quads below the camera are wanted even when it can't see them.
     virtual bool followsCamera() const { return false; }
-    /// Nothing that it asked the GPU for in earlier frames is still to come.
-    virtual bool isSettled() const { return true; }
+    /// Nothing that it asked the GPU for is still to come, or it was not updated in the last frame
+    /// drawn, which had this number, and takes nothing any more.
+    virtual bool isSettled(std::uint64_t) const { return true; }
 
 protected:
     virtual bool needs(const TerrainNode& terrain, const TerrainQuad& quad) const;

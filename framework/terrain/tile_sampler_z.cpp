@@ -27,6 +27,7 @@ bool TileSamplerZ::needs(const TerrainNode& terrain, const TerrainQuad& quad) co
 
 void TileSamplerZ::update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) {
     TileSampler::update(terrain, scene, frame);
+    updatedIn_ = scene.frameNumber();
     readback_->beginFrame(scene.frameNumber());
     measureQuads(terrain);
     followGround(terrain, scene.frameNumber());

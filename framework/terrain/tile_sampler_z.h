@@ -4,7 +4,9 @@
 #include "producer/elevation_readback.h"
 #include "terrain/tile_sampler.h"
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <glm/vec2.hpp>
 
@@ -29,7 +31,9 @@ public:
     bool followsCamera() const override { return true; }
 
     /// Nothing that was asked for, by any sampler of these tiles, is still to come.
-    bool isSettled() const override { return !waiting_ && readback_->isSettled(); }
+    bool isSettled(std::uint64_t frame) const override {
+        return updatedIn_ != frame || (!waiting_ && readback_->isSettled());
+    }
 
 protected:
     bool needs(const TerrainNode& terrain, const TerrainQuad& quad) const override;
@@ -51,6 +55,7 @@ private:
     const std::shared_ptr<ElevationReadback> readback_;
     ElevationReadback::Point point_;
     Sample sample_;
+    std::optional<std::uint64_t> updatedIn_; ///< number of the frame
     bool waiting_ = false; ///< there was no room to ask for what is below the camera
     bool moving_ = false;  ///< the next two are those of the frame before
     glm::dvec2 camera_{0}, step_{0};

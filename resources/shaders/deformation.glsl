@@ -11,7 +11,6 @@ uniform struct {
     mat4 screenQuadVerticals;  // columns: upward unit vectors there, in clip space
     vec4 screenQuadCornerNorms; // spheres: distance of the flat quad's corners to the centre
     mat3 tangentFrameToWorld;  // spheres: east, north, up at the quad, in world space
-    mat3 localToWorld;         // spheres: how the terrain is turned
     float radius;              // spheres and cylinders
 } deformation;
 
