@@ -40,6 +40,8 @@ void main() {
     vec3 light, left;
     throughAir(cameraToWorld[3].xyz, d * 1e8, 10, light, left);
     float disc = smoothstep(0.99994, 0.99997, dot(d, sunDirection()));
-    colour = vec4(developed(light + left * (disc * 60.0 + 0.5 * stars(d))), 1.0);
+    // A bright sky outshines the stars.
+    float dark = exp(-30.0 * max(light.r, max(light.g, light.b)));
+    colour = vec4(developed(light + left * (disc * 60.0 + 0.5 * dark * stars(d))), 1.0);
 }
 #endif

@@ -126,7 +126,11 @@ void addPlay(CLI::App& app, Arguments& a) {
             ->type_name("SECONDS")
             ->check(within(1e-6, 1e6));
     play->add_flag("--real-time", a.realTime, "Follow the clock, also headless")->excludes(step);
-    play->add_option("--camera", a.view, "Where to look from")->type_name("")->check(validView());
+    play->add_option("--camera", a.view,
+                     "Where to look at, from how far: metres and degrees; on a planet X0,Y0 are "
+                     "longitude and latitude")
+        ->type_name("X0,Y0,THETA,PHI,D")
+        ->check(validView());
     play->add_option("--screenshot", a.run.screenshot, "Write the last frame (PNG)")
         ->type_name("FILE");
     play->add_option("--script", a.run.script, "Run the lines of a file; '-' answers each line")
