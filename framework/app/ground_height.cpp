@@ -2,7 +2,6 @@
 #include "app/ground_height.h"
 
 #include "app/start_view.h"
-#include "terrain/spherical_deformation.h"
 #include "terrain/terrain_node.h"
 #include "terrain/tile_sampler.h"
 
@@ -16,10 +15,15 @@
 
 namespace terrane {
 
+glm::dvec3 inFrameOf(const TerrainNode& terrain, const glm::dvec3& world) {
+    const glm::dmat4 worldToLocal = glm::inverse(terrain.state().localToWorld);
+    return glm::dvec3(worldToLocal * glm::dvec4(world, 1));
+}
+
 namespace {
 
 bool isSphere(const TerrainNode& terrain) {
-    return dynamic_cast<const SphericalDeformation*>(&terrain.deformation()) != nullptr;
+    return terrain.deformation().shape() == Deformation::Shape::sphere;
 }
 
 bool contains(const TerrainNode& terrain, const glm::dvec2& local) {
@@ -31,36 +35,6 @@ glm::dvec3 direction(double longitude, double latitude) {
     const double c = std::cos(latitude);
     return {std::cos(longitude) * c, std::sin(longitude) * c, std::sin(latitude)};
 }
-
-} // namespace
-
-glm::dvec3 inFrameOf(const TerrainNode& terrain, const glm::dvec3& world) {
-    const glm::dmat4 worldToLocal = glm::inverse(terrain.state().localToWorld);
-    return glm::dvec3(worldToLocal * glm::dvec4(world, 1));
-}
-
-std::optional<TerrainPlace> terrainPlace(const std::vector<TerrainNode*>& terrains, double x,
-                                         double y) {
-    if (terrains.empty()) return std::nullopt;
-    const TerrainNode& first = *terrains.front();
-    if (!isSphere(first)) {
-        if (!contains(first, {x, y})) return std::nullopt;
-        return TerrainPlace{&first, {x, y}};
-    }
-    const glm::dvec3 up = direction(glm::radians(x), glm::radians(y));
-    for (const TerrainNode* terrain : terrains) {
-        const bool samePlanet =
-            isSphere(*terrain) && terrain->deformation().radius() == first.deformation().radius();
-        if (!samePlanet) continue;
-        const glm::dmat3 worldToLocal = glm::inverse(glm::dmat3(terrain->state().localToWorld));
-        const glm::dvec2 local(terrain->deformation().deformedToLocal(
-            worldToLocal * up * terrain->deformation().radius()));
-        if (contains(*terrain, local)) return TerrainPlace{terrain, local};
-    }
-    return std::nullopt;
-}
-
-namespace {
 
 bool isSamePlanet(const TerrainNode& a, const TerrainNode& b) {
     return isSphere(a) && isSphere(b) && a.deformation().radius() == b.deformation().radius() &&
@@ -100,6 +74,25 @@ const TerrainQuad& measuredQuadAt(const TerrainNode& terrain, const glm::dvec2& 
 }
 
 } // namespace
+
+std::optional<TerrainPlace> terrainPlace(const std::vector<TerrainNode*>& terrains, double x,
+                                         double y) {
+    if (terrains.empty()) return std::nullopt;
+    const TerrainNode& first = *terrains.front();
+    if (!isSphere(first)) {
+        if (!contains(first, {x, y})) return std::nullopt;
+        return TerrainPlace{&first, {x, y}};
+    }
+    const glm::dvec3 centre(first.state().localToWorld[3]);
+    const glm::dvec3 world =
+        centre + first.deformation().radius() * direction(glm::radians(x), glm::radians(y));
+    for (const TerrainNode* terrain : terrains) {
+        if (!isSamePlanet(*terrain, first)) continue;
+        const glm::dvec2 local(toLocal(*terrain, world));
+        if (contains(*terrain, local)) return TerrainPlace{terrain, local};
+    }
+    return std::nullopt;
+}
 
 TerrainNode* groundBelowCamera(const std::vector<TerrainNode*>& terrains) {
     TerrainNode* const below = terrainBelowCamera(terrains);

@@ -3,8 +3,6 @@
 
 #include "app/ground_height.h"
 #include "render/render_target.h"
-#include "terrain/cylindrical_deformation.h"
-#include "terrain/spherical_deformation.h"
 #include "terrain/terrain_node.h"
 
 #include <algorithm>
@@ -21,13 +19,17 @@ constexpr double kPlanetLimit = 1.1, kFlatLimit = 2;
 
 bool isNear(const glm::dvec3& world, const TerrainNode& terrain) {
     const glm::dvec3 point = inFrameOf(terrain, world);
-    const Deformation& shape = terrain.deformation();
+    const Deformation& ground = terrain.deformation();
     const double size = kFlatLimit * terrain.parameters().size;
-    if (dynamic_cast<const SphericalDeformation*>(&shape))
-        return glm::length(point) < kPlanetLimit * shape.radius();
-    if (dynamic_cast<const CylindricalDeformation*>(&shape))
-        return std::hypot(point.y, point.z) < kPlanetLimit * shape.radius() &&
+    switch (ground.shape()) {
+    case Deformation::Shape::sphere:
+        return glm::length(point) < kPlanetLimit * ground.radius();
+    case Deformation::Shape::cylinder:
+        return std::hypot(point.y, point.z) < kPlanetLimit * ground.radius() &&
                std::abs(point.x) < size;
+    case Deformation::Shape::flat:
+        break;
+    }
     return glm::all(glm::lessThan(glm::abs(point), glm::dvec3(size)));
 }
 

@@ -2,8 +2,6 @@
 #include "app/start_view.h"
 
 #include "scene/scene_node.h"
-#include "terrain/cylindrical_deformation.h"
-#include "terrain/spherical_deformation.h"
 #include "terrain/terrain_node.h"
 #include "terrain/tile_sampler.h"
 
@@ -59,10 +57,11 @@ std::unique_ptr<TerrainViewController> makeViewController(const SceneNode& root)
     const TerrainNode* const terrain = terrains.empty() ? nullptr : terrains.front();
     const double radius = terrain ? terrain->deformation().radius() : 0;
     double d = terrain ? terrain->parameters().size : sizeOf(root.worldBounds);
-    if (terrain && dynamic_cast<const SphericalDeformation*>(&terrain->deformation())) {
+    const auto shape = terrain ? terrain->deformation().shape() : Deformation::Shape::flat;
+    if (shape == Deformation::Shape::sphere) {
         controller = std::make_unique<PlanetViewController>(radius);
         d = 6 * radius;
-    } else if (terrain && dynamic_cast<const CylindricalDeformation*>(&terrain->deformation())) {
+    } else if (shape == Deformation::Shape::cylinder) {
         controller = std::make_unique<CylinderViewController>(radius);
         d = 0.9 * radius;
     } else {

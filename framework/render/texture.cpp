@@ -40,27 +40,6 @@ bool isMultisample(T target) {
     return target == T::multisample2D || target == T::multisample2DArray;
 }
 
-struct TextureCalls {
-    const GladGLContext& gl;
-    unsigned name;
-
-    void integer(unsigned parameter, int value) const {
-        gl.TextureParameteri(name, parameter, value);
-    }
-    void real(unsigned parameter, float value) const {
-        gl.TextureParameterf(name, parameter, value);
-    }
-    void reals(unsigned parameter, const float* values) const {
-        gl.TextureParameterfv(name, parameter, values);
-    }
-    void integers(unsigned parameter, const int* values) const {
-        gl.TextureParameterIiv(name, parameter, values);
-    }
-    void unsignedIntegers(unsigned parameter, const unsigned* values) const {
-        gl.TextureParameterIuiv(name, parameter, values);
-    }
-};
-
 /// Silences debug output, and tells afterwards what went wrong: when memory runs out, whoever asked
 /// for it says so, with a place.
 class QuietAllocation {
@@ -297,12 +276,13 @@ void Texture::applySampling() {
     if (!isSampled()) return;
     const auto& gl = context_->gl();
     const auto& s = sampling_;
-    const TextureCalls calls{gl, name_};
     const bool isRectangle = description_.target == T::rectangle;
-    sendSampling(*context_, s, {.integer = format_->integer(), .rectangle = isRectangle}, calls);
+    sendSampling(*context_, s, {.integer = format_->integer(), .rectangle = isRectangle},
+                 {name_, gl.TextureParameteri, gl.TextureParameterf, gl.TextureParameterfv,
+                  gl.TextureParameterIiv, gl.TextureParameterIuiv});
     if (!isRectangle) {
-        calls.integer(GL_TEXTURE_BASE_LEVEL, std::max(0, s.minLevel));
-        calls.integer(GL_TEXTURE_MAX_LEVEL, std::max(0, s.maxLevel));
+        gl.TextureParameteri(name_, GL_TEXTURE_BASE_LEVEL, std::max(0, s.minLevel));
+        gl.TextureParameteri(name_, GL_TEXTURE_MAX_LEVEL, std::max(0, s.maxLevel));
     }
     GLint swizzle[4];
     std::transform(s.swizzle.begin(), s.swizzle.end(), swizzle, [](auto c) { return GLint(c); });

@@ -20,6 +20,7 @@ public:
     /// Never: the ground rises towards both sides.
     bool hasStraightSight(const glm::dvec3&) const override { return false; }
     double radius() const override { return radius_; }
+    Shape shape() const override { return Shape::cylinder; }
 
 private:
     double radius_;

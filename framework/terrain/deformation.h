@@ -37,7 +37,10 @@ struct QuadCorner {
 /// Metres, double precision. Immutable, so any thread may ask it (terrain reference 2.2, 3.2).
 class Deformation {
 public:
+    enum class Shape { flat, sphere, cylinder };
+
     virtual ~Deformation() = default;
+    virtual Shape shape() const { return Shape::flat; }
 
     virtual glm::dvec3 localToDeformed(const glm::dvec3& local) const;
     /// Infinite where the inverse has no value.

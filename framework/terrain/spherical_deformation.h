@@ -25,6 +25,7 @@ public:
     QuadCorner corner(const glm::dvec2& local) const override;
     glm::dmat3 quadFrame(const QuadBox& box) const override;
     double radius() const override { return radius_; }
+    Shape shape() const override { return Shape::sphere; }
 
 private:
     Visibility horizonVisibility(const Viewer& viewer, const QuadBox& box,

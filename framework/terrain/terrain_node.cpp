@@ -133,8 +133,9 @@ void TerrainNode::updateChildren(TerrainQuad& quad) {
 
 void TerrainNode::updateLeaf(TerrainQuad& quad) {
     if (!quad.isVisible()) return;
-    // It is drawn as it is, so its own elevations count.
-    if (quad.visibility == Visibility::partial)
+    // It is drawn as it is, so its own elevations count, where they are known to be fewer.
+    const bool fewer = quad.zmin > zmin_ || quad.zmax < zmax_;
+    if (fewer && quad.visibility == Visibility::partial)
         quad.visibility = deformation().visibility(state_.viewer, quad.box());
     if (!quad.isVisible()) return;
     quad.occluded = horizon_.addOccluder(quad.box());
@@ -151,11 +152,8 @@ bool TerrainNode::isSoonBelowCamera(const TerrainQuad& quad) const {
 
 const TerrainQuad& TerrainNode::leafAt(const glm::dvec2& local) const {
     const TerrainQuad* quad = &root();
-    while (!quad->isLeaf()) {
-        const int east = local.x < quad->ox + quad->l / 2 ? 0 : 1;
-        const int north = local.y < quad->oy + quad->l / 2 ? 0 : 1;
-        quad = &child(*quad, east + 2 * north);
-    }
+    while (!quad->isLeaf())
+        quad = &child(*quad, quad->childAt(local));
     return *quad;
 }
 
@@ -173,9 +171,7 @@ const std::array<int, 4>& TerrainNode::frontToBack(const TerrainQuad& quad) cons
     // upper right.
     static constexpr std::array<std::array<int, 4>, 4> kOrders{
         {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 3, 1}, {3, 1, 2, 0}}};
-    const int east = state_.localCamera.x < quad.ox + quad.l / 2 ? 0 : 1;
-    const int north = state_.localCamera.y < quad.oy + quad.l / 2 ? 0 : 1;
-    return kOrders[2 * north + east];
+    return kOrders[quad.childAt(glm::dvec2(state_.localCamera))];
 }
 
 const TerrainQuad* TerrainNode::find(int level, int tx, int ty) const {

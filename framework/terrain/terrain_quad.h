@@ -36,6 +36,10 @@ struct TerrainQuad {
     bool isLeaf() const { return firstChild < 0; }
     bool isVisible() const { return visibility != Visibility::none; }
     QuadBox box() const { return {ox, oy, l, zmin, zmax}; }
+    /// Which of its four children is at a local point, or nearest to it as coordinates count.
+    int childAt(const glm::dvec2& local) const {
+        return (local.x < ox + l / 2 ? 0 : 1) + (local.y < oy + l / 2 ? 0 : 2);
+    }
 };
 
 } // namespace terrane

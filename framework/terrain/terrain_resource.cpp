@@ -15,16 +15,16 @@ namespace terrane {
 
 namespace {
 
-enum class Shape { none, sphere, cylinder };
+using Shape = Deformation::Shape;
 
 const Words<Shape> kShapeWords{
-    {"none", Shape::none}, {"sphere", Shape::sphere}, {"cylinder", Shape::cylinder}};
+    {"none", Shape::flat}, {"sphere", Shape::sphere}, {"cylinder", Shape::cylinder}};
 
 struct TerrainNodeDescription : ElementDescription {
     Attr<double> size;
     Attr<double> zmin = 0.0;
     Attr<double> zmax = 0.0;
-    Attr<Shape> deform = Shape::none;
+    Attr<Shape> deform = Shape::flat;
     Attr<double> radius = 0.0;
     Attr<double> splitFactor;
     Attr<int> maxLevel;
@@ -54,7 +54,7 @@ std::shared_ptr<const Deformation> makeDeformation(const TerrainNodeDescription&
         return std::make_shared<SphericalDeformation>(d.size);
     case Shape::cylinder:
         return std::make_shared<CylindricalDeformation>(d.radius);
-    case Shape::none:
+    case Shape::flat:
         break;
     }
     return std::make_shared<Deformation>();

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace terrane {
@@ -91,18 +90,12 @@ glm::dvec2 TileSamplerZ::whereCameraWillBe(const TerrainState& state) {
 // The finest one there with a tile.
 const TerrainQuad* TileSamplerZ::finestQuad(const TerrainNode& terrain,
                                             const glm::dvec2& local) const {
-    const TerrainQuad& root = terrain.root();
-    const glm::dvec2 corner(root.ox, root.oy);
-    const glm::dvec2 inside = glm::clamp(local, corner, corner + root.l);
-    const TerrainQuad* finest = nullptr;
-    const TerrainQuad* quad = &root;
+    const TerrainQuad* quad = &terrain.leafAt(local);
     while (true) {
         const Tile* const tile = held(*quad);
-        if (tile && tile->done()) finest = quad;
-        if (quad->isLeaf()) return finest;
-        const int east = inside.x < quad->ox + quad->l / 2 ? 0 : 1;
-        const int north = inside.y < quad->oy + quad->l / 2 ? 0 : 1;
-        quad = &terrain.child(*quad, east + 2 * north);
+        if (tile && tile->done()) return quad;
+        if (quad->parent < 0) return nullptr;
+        quad = &terrain.quads()[quad->parent];
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mountains.h"
+#include "sanitized.h"
 
 #include "resource/manager.h"
 #include "terrain/terrain_node.h"
@@ -19,11 +20,6 @@ using namespace terrane;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true; // some ten times slower
-#else
-constexpr bool kSanitized = false;
-#endif
 constexpr int kFrames = kSanitized ? 60 : 300;
 
 /// Ends of the legs of a flight; metres and degrees. Distances count from the ground below the

@@ -4,44 +4,22 @@
 #include "resource/manager.h"
 #include "terrain/terrain_node.h"
 
-#include <cstdlib>
-
 namespace terrane {
-
-namespace {
-
-std::filesystem::path original() {
-    const char* const source = std::getenv("TERRANE_SOURCE");
-    return std::filesystem::path(source ? source : ".") / "archives/mountains";
-}
-
-std::string edited(const std::string& file, const MountainEdits::Edits& edits) {
-    auto text = readFile(original() / file);
-    REQUIRE(text);
-    for (const auto& [before, after] : edits) {
-        CAPTURE(before);
-        const std::size_t at = text->find(before);
-        REQUIRE(at != std::string::npos);
-        text->replace(at, before.size(), after);
-    }
-    return *text;
-}
-
-} // namespace
 
 Mountains::Mountains(const MountainEdits& edits, PlayerOptions options)
     : player_(standardRegistry(), write(edits, std::move(options))) {}
 
 PlayerOptions Mountains::write(const MountainEdits& edits, PlayerOptions options) {
-    MountainEdits::Edits all{{"<callMethod name=\"sky.draw\"/>", ""},
-                             {"<sequence name=\"drawFrame\">",
-                              "<sequence name=\"drawFrame\"><setState clearColor=\"true\">"
-                              "<clear r=\"1\" g=\"0\" b=\"1\" a=\"1\"/></setState>"}};
+    const std::filesystem::path original = exampleArchive("mountains");
+    TextEdits all{{"<callMethod name=\"sky.draw\"/>", ""},
+                  {"<sequence name=\"drawFrame\">",
+                   "<sequence name=\"drawFrame\"><setState clearColor=\"true\">"
+                   "<clear r=\"1\" g=\"0\" b=\"1\" a=\"1\"/></setState>"}};
     all.insert(all.end(), edits.archive.begin(), edits.archive.end());
-    folder_.write("archive.xml", edited("archive.xml", all));
-    folder_.write("ground.glsl", edited("ground.glsl", edits.ground));
+    folder_.write("archive.xml", edited(original / "archive.xml", all));
+    folder_.write("ground.glsl", edited(original / "ground.glsl", edits.ground));
     options.archive = folder_.path();
-    options.paths = {original()};
+    options.paths = {original};
     options.width = 320;
     options.height = 240;
     options.debug = true;

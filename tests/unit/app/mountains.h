@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "archive_edits.h"
 #include "archive_folder.h"
 #include "crack_finder.h"
 
 #include "app/player.h"
 
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace terrane {
 
 /// archives/mountains, changed by a test: a text of its archive.xml, or of ground.glsl, and what
 /// stands there instead. A text that is not there fails the test.
 struct MountainEdits {
-    using Edits = std::vector<std::pair<std::string, std::string>>;
-    Edits archive;
-    Edits ground;
+    TextEdits archive;
+    TextEdits ground;
 };
 
 /// The mountains without their sky, in front of one colour, and a player that draws them small.

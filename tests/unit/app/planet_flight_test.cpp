@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planet.h"
+#include "sanitized.h"
 
 #include "resource/manager.h"
 #include "terrain/terrain_node.h"
@@ -13,11 +14,7 @@ using namespace terrane;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kFrames = 15; // some ten times slower
-#else
-constexpr int kFrames = 30;
-#endif
+constexpr int kFrames = kSanitized ? 15 : 30;
 
 /// Longitude and latitude of a corner of the cube, degrees.
 constexpr double kCornerLatitude = 35.2643896828;

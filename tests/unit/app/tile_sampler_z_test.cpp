@@ -5,6 +5,7 @@
 #include "plugin_terrain/elevation_oracle.h"
 #include "producer/tile_producer.h"
 #include "render/context.h"
+#include "sanitized.h"
 #include "scene/scene_manager.h"
 #include "terrain/spherical_deformation.h"
 #include "tools/terrane/allocation_counter.h"
@@ -25,11 +26,7 @@ using terrane::test::ElevationOracle;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kFlightFrames = 30; // some ten times slower
-#else
-constexpr int kFlightFrames = 150;
-#endif
+constexpr int kFlightFrames = kSanitized ? 30 : 150;
 
 const std::vector<View> kViews{
     {.x0 = -300, .y0 = -200, .theta = 83, .phi = 23, .d = 60},
