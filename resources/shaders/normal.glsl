@@ -1,5 +1,7 @@
 // One tile of normals from the elevations of the same quad, and with four channels what its
 // parent shows there. x and y in the tangent frame at the quad's centre. (terrain reference 2.6)
+// Shaders drawn in software run both sides of a condition, so that what only spheres need costs
+// flat terrains, too: there is little of it, and it does without the quad's corners.
 
 uniform vec3 tileSDF; // width of tiles in texels, texels per mesh cell, format: 0 = two signed
                       // normals, 1 = two unsigned, 2 = one signed, 3 = one unsigned
@@ -10,9 +12,6 @@ uniform vec4 elevationOSL; // the quad: lower left corner, texel size, layer
 uniform sampler2DArray normalSampler;
 uniform vec4 normalOSL; // the parent's normals; negative if not wanted
 
-uniform mat4 patchCorners;         // spheres: the quad's corners relative to their mean
-uniform mat4 patchVerticals;       // spheres: upward unit vectors at the corners
-uniform vec4 patchCornerNorms;     // spheres: distance of the flat quad's corners to the centre
 uniform mat3 worldToTangentFrame;  // spheres: rows are east, north, up
 uniform mat3 parentToTangentFrame; // spheres
 uniform vec4 deform;               // lower left corner, size, radius; radius 0 when flat
@@ -36,46 +35,38 @@ float elevation(ivec2 texel) {
     return texelFetch(elevationSampler, ivec3(first + texel, int(elevationOSL.w)), 0).z;
 }
 
-// Where a texel is on a sphere, relative to some point below or above the quad. The corners' unit
-// vectors v, interpolated with weights a to u, are shorter than 1 by 1-k, where
-// k^2 = |u|^2 = 1 - sum a_i a_j |v_i - v_j|^2: so computed, the curvature of the smallest quad is
-// there even in floats. Of heights only differences to h0 count, for the same reason.
-vec3 onSphere(vec2 uv, float h, float h0) {
-    float R = deform.w;
-    vec4 uvUV = vec4(uv, vec2(1.0) - uv);
-    vec4 alpha = uvUV.zxzx * uvUV.wwyy;
-    vec4 a = alpha * patchCornerNorms / dot(alpha, patchCornerNorms);
-    float sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        for (int j = i + 1; j < 4; ++j) {
-            vec3 edge = (patchCorners[i] - patchCorners[j]).xyz / R;
-            sum += a[i] * a[j] * dot(edge, edge);
-        }
-    }
-    float k = sqrt(1.0 - sum);
-    float oneMinusK = sum / (1.0 + k);
-    float height = (h - h0 + (R + h0) * oneMinusK) / k;
-    return (1.0 + h0 / R) * (patchCorners * a).xyz + height * (patchVerticals * a).xyz;
+// Along a row or a column of the grid over a sphere, from a texel's neighbour on one side to that on
+// the other: the difference of their points, of these heights. `at` is the texel on the cube of half
+// an edge of 1, `back` and `ahead` lead to the neighbours. Of points r u with unit vectors u it is
+// (u1 - u0) (r1 + r0) / 2 + (u1 + u0) (r1 - r0) / 2, and u1 - u0 comes from the way between them: so
+// the normals of the smallest quads are good even in floats.
+vec3 across(vec3 at, vec3 back, vec3 ahead, float h0, float h1) {
+    vec3 p0 = at + back, p1 = at + ahead, way = ahead - back;
+    float l0 = length(p0), l1 = length(p1);
+    vec3 turn = (way - p0 * (dot(way, p0 + p1) / (l0 * (l0 + l1)))) / l1;
+    vec3 up = 0.5 * (p0 / l0 + p1 / l1);
+    return turn * (deform.w + 0.5 * (h0 + h1)) + up * (h1 - h0);
 }
 
 // Texels beyond the edge of a face are those of the next face of the cube, where rows and columns go
-// on around the edge: the place (R+s, y) stands for (R, y, R-s). This is where to find that on the
-// plane of the face, so that both faces see the same ground, and light shows no seam.
-vec2 aroundCube(vec2 uv) {
-    float R = deform.w, size = deform.z;
-    vec2 low = vec2(lessThan(deform.xy + R, vec2(0.25 * size))) * max(-uv, 0.0);
-    vec2 high = vec2(greaterThan(deform.xy + 1.25 * size, vec2(R))) * max(uv - 1.0, 0.0);
-    vec2 s = (low + high) * size / R;
-    vec2 along = (deform.xy + uv * size) / R;
-    if (s.x > 0.0) uv += s.x / (1.0 - s.x) * vec2(along.x > 0.0 ? s.x : -s.x, along.y) * R / size;
-    if (s.y > 0.0) uv += s.y / (1.0 - s.y) * vec2(along.x, along.y > 0.0 ? s.y : -s.y) * R / size;
-    return uv;
+// on around the edge: both faces see the same ground, and light shows no seam.
+vec3 stepTo(vec3 ahead, bool atEdge) {
+    return atEdge ? vec3(0.0, 0.0, -1.0) : ahead;
 }
 
-vec3 position(ivec2 texel, float h0) {
-    float h = elevation(texel);
-    vec2 uv = vec2(texel) / (tileSDF.x - 1.0);
-    return deform.w == 0.0 ? vec3(uv * deform.z, h - h0) : onSphere(aroundCube(uv), h, h0);
+vec3 normalOnSphere(ivec2 texel, vec4 h) {
+    float R = deform.w, size = deform.z;
+    int last = int(tileSDF.x) - 1;
+    float s = size / (float(last) * R);
+    vec3 at = vec3(deform.xy / R + vec2(texel) * s, 1.0);
+    bvec2 low = lessThan(deform.xy + R, vec2(0.25 * size));
+    bvec2 high = greaterThan(deform.xy + 1.25 * size, vec2(R));
+    vec3 west = stepTo(vec3(-1, 0, 0), low.x && texel.x == 0);
+    vec3 east = stepTo(vec3(1, 0, 0), high.x && texel.x == last);
+    vec3 south = stepTo(vec3(0, -1, 0), low.y && texel.y == 0);
+    vec3 north = stepTo(vec3(0, 1, 0), high.y && texel.y == last);
+    return worldToTangentFrame * cross(across(at, s * west, s * east, h.x, h.y),
+                                       across(at, s * south, s * north, h.z, h.w));
 }
 
 vec2 decoded(vec2 n) {
@@ -99,10 +90,10 @@ vec2 coarseNormal(ivec2 texel) {
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    float h0 = elevation(texel);
-    vec3 east = position(texel + ivec2(1, 0), h0) - position(texel - ivec2(1, 0), h0);
-    vec3 north = position(texel + ivec2(0, 1), h0) - position(texel - ivec2(0, 1), h0);
-    vec3 normal = normalize(worldToTangentFrame * cross(east, north));
+    vec4 h = vec4(elevation(texel - ivec2(1, 0)), elevation(texel + ivec2(1, 0)),
+                  elevation(texel - ivec2(0, 1)), elevation(texel + ivec2(0, 1)));
+    vec3 flatNormal = vec3(h.x - h.y, h.z - h.w, 2.0 * deform.z / (tileSDF.x - 1.0));
+    vec3 normal = normalize(deform.w == 0.0 ? flatNormal : normalOnSphere(texel, h));
     vec2 coarse = normalOSL.x < 0.0 ? normal.xy : coarseNormal(texel);
     data = vec4(normal.xy, tileSDF.z < 2.0 ? coarse : vec2(0.0));
     if (tileSDF.z == 1.0 || tileSDF.z == 3.0) data = 0.5 * data + 0.5;

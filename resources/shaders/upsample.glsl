@@ -53,12 +53,27 @@ float between(vec4 z, int texel) {
     return texel % 2 == 0 ? z[1] : middle + 0.125 * (middle - 0.5 * (z[0] + z[3]));
 }
 
-// Parent elevations: rows of four.
+// Parent elevations: rows of four. Gathering four at once takes half of the time of fetches when
+// drawn in software. Between four centres nothing is near to another choice of texels.
 mat4 parentBlock(ivec2 texel) {
     mat4 z;
+#if __VERSION__ >= 400
+    vec2 first = floor(coarseLevelOSL.xy / coarseLevelOSL.z + 0.5) + vec2(texel / 2);
+    for (int j = 0; j < 4; j += 2) {
+        for (int i = 0; i < 4; i += 2) {
+            vec2 corner = (first + vec2(i + 1, j + 1)) * coarseLevelOSL.z;
+            vec4 g = textureGather(coarseLevelSampler, vec3(corner, coarseLevelOSL.w));
+            z[j][i] = g.w;
+            z[j][i + 1] = g.z;
+            z[j + 1][i] = g.x;
+            z[j + 1][i + 1] = g.y;
+        }
+    }
+#else
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i)
             z[j][i] = parent(texel / 2 + ivec2(i, j)).x;
+#endif
     return z;
 }
 
@@ -112,8 +127,10 @@ float noise(ivec2 texel) {
     return texelFetch(noiseSampler, ivec3(uv, int(noiseUVLH.z)), 0).x;
 }
 
-int floorDivide(int a, int b) {
-    return a >= 0 ? a / b : -((b - 1 - a) / b);
+// Exact: halves are, and so much is far from the next integer. Drawn in software, integers divide
+// one by one.
+ivec2 floorDivide(ivec2 a, int b) {
+    return ivec2(floor((vec2(a) + 0.5) / float(b)));
 }
 
 // Vertices of the parent's mesh, counted from the quad's corner.
@@ -127,8 +144,8 @@ float parentVertex(int x, int y) {
 float coarseElevation(ivec2 texel) {
     int g = int(tileWSDF.z);
     ivec2 ij = texel - 2;
-    int x0 = floorDivide(ij.x, 2 * g), x1 = floorDivide(ij.x + g, 2 * g);
-    int y0 = floorDivide(ij.y, 2 * g), y1 = floorDivide(ij.y + g, 2 * g);
+    ivec2 v0 = floorDivide(ij, 2 * g), v1 = floorDivide(ij + g, 2 * g);
+    int x0 = v0.x, x1 = v1.x, y0 = v0.y, y1 = v1.y;
     float falling = 0.5 * (parentVertex(x1, y0) + parentVertex(x0, y1));
     // In the middle of a cell, if the mesh turns its diagonals towards the ridges.
     bool middle = ij.x - 2 * g * x0 == g && ij.y - 2 * g * y0 == g;
