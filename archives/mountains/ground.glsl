@@ -40,6 +40,7 @@ void main() {
 vec3 sunDirection();
 vec3 sunlight();
 vec3 skylight(vec3 normal);
+vec3 plain();
 vec3 throughAir(vec3 colour, vec3 eye, vec3 point);
 vec3 developed(vec3 light);
 
@@ -89,6 +90,8 @@ vec3 surface(vec3 p, vec3 n) {
 
     float wooded = smoothstep(treeLine, treeLine - 500.0, height) * smoothstep(0.78, 0.88, n.z);
     vec3 c = mix(meadow, forest, wooded * smoothstep(-0.12, 0.06, patchy));
+    vec2 inside = 50000.0 - abs(p.xy);
+    c = mix(plain(), c, smoothstep(0.0, 4000.0, min(inside.x, inside.y) + 2500.0 * patchy));
     c = mix(c, scree, smoothstep(treeLine - 100.0, treeLine + 500.0, height));
     c = mix(c, rock, smoothstep(0.86, 0.70, n.z + 0.12 * patchy));
     // Snow lies where it is high and not too steep.

@@ -29,8 +29,9 @@ vec3 gradientNoise(vec2 p) {
     return vec3(value, slope);
 }
 
-float rootElevation(vec2 p) {
-    p += 4600.0 * vec2(gradientNoise(p / 29000.0 + 7.3).x, gradientNoise(p / 29000.0 - 3.1).x);
+float rootElevation(vec2 place) {
+    vec2 p = place + 4600.0 * vec2(gradientNoise(place / 29000.0 + 7.3).x,
+                                     gradientNoise(place / 29000.0 - 3.1).x);
     mat2 turn = mat2(0.8, 0.6, -0.6, 0.8);
     vec2 q = p / 15500.0, slope = vec2(0.0);
     float height = 0.0, amplitude = 1.0, above = 1.0;
@@ -46,7 +47,10 @@ float rootElevation(vec2 p) {
         q = turn * q * 2.03 + 5.2;
     }
     float massif = smoothstep(-0.55, 0.35, gradientNoise(p / 47000.0 + 1.7).x);
-    return 120.0 + 3300.0 * height * mix(0.3, 1.0, massif);
+    // Hills that end in the plain around, which the sky shader paints.
+    vec2 inside = 50000.0 - abs(place);
+    float whole = smoothstep(500.0, 8000.0, min(inside.x, inside.y));
+    return 120.0 + 3300.0 * height * mix(0.3, 1.0, massif) * whole;
 }
 
 float noiseFactor(mat3 z, float metres) {

@@ -12,6 +12,9 @@ vec3 sunlight() { return vec3(1.0, 0.92, 0.80) * 2.6; }
 // Light from the sky on a surface: from above more than from the side.
 vec3 skylight(vec3 normal) { return vec3(0.26, 0.34, 0.50) * (0.65 + 0.35 * normal.z); }
 
+// The plain around the mountains: what of the light it reflects.
+vec3 plain() { return vec3(0.085, 0.098, 0.034); }
+
 // Colour of the air in a direction, from the horizon up.
 vec3 skyColour(vec3 direction) {
     float up = max(direction.z, 0.0);
@@ -24,7 +27,7 @@ vec3 skyColour(vec3 direction) {
 }
 
 // What is left of a colour at a distance, and the air's own light in front of it. The air thins
-// with height: half of it lies below 5.5 km.
+// with height: half of the haze lies below 2.2 km.
 vec3 throughAir(vec3 colour, vec3 eye, vec3 point) {
     vec3 way = point - eye;
     float distance = length(way);

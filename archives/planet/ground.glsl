@@ -85,9 +85,10 @@ float corner(ivec2 cell, int level) {
     return hash(onCube);
 }
 
-// Noise in [0,1] on a grid of 2^level cells a face. Counted in integers, since metres on a planet
-// leave no digits for stones.
-float grain(int level) {
+// Noise in [0,1] on a grid of 2^level cells a face, and how it changes in a cell along x and y.
+// Counted in integers, since metres on a planet leave no digits for stones; where they are too many,
+// they start again.
+vec3 grain(int level) {
     int depth = level - int(deformation.offset.w);
     ivec2 tile = ivec2(round((deformation.offset.xy + deformation.radius) / deformation.offset.z));
     vec2 p = uv * exp2(float(depth));
@@ -97,27 +98,33 @@ float grain(int level) {
         p += vec2(tile - (first << -depth)) * exp2(float(depth));
     }
     ivec2 i = first + ivec2(floor(p));
-    vec2 f = fract(p);
-    f = f * f * (3.0 - 2.0 * f);
+    vec2 t = fract(p), f = t * t * (3.0 - 2.0 * t), df = 6.0 * t * (1.0 - t);
     ivec2 x = ivec2(0, 1);
-    float low = mix(corner(i, level), corner(i + x.yx, level), f.x);
-    float high = mix(corner(i + x.xy, level), corner(i + x.yy, level), f.x);
-    return mix(low, high, f.y);
+    vec2 low = vec2(corner(i, level), corner(i + x.yx, level));
+    vec2 high = vec2(corner(i + x.xy, level), corner(i + x.yy, level));
+    vec2 row = mix(low, high, f.y);
+    return vec3(mix(row.x, row.y, f.x), (row.y - row.x) * df.x,
+                dot(high - low, vec2(1.0 - f.x, f.x)) * df.y);
 }
+
+// How much ground a pixel shows, metres: the edge of a square of that area.
+float pixelSize() { return sqrt(length(cross(dFdx(way), dFdy(way)))); }
 
 // What of a pattern pixels can show: 1 of patches that are larger, 0 of smaller ones.
-float shown(float size) {
-    return clamp(1.5 - 0.004 * length(way) / size, 0.0, 1.0);
-}
+float shown(float size) { return clamp(1.5 - 2.4 * pixelSize() / size, 0.0, 1.0); }
 
-// Tussocks and stones of several sizes, in about [-0.5,0.5].
-float stones() {
-    float sum = 0.0;
-    for (int level = 18; level < 29; level += 2) {
-        float part = shown(4.0 * deformation.radius / exp2(float(level + 1)));
-        if (part > 0.0) sum += part * (grain(level) - 0.5);
+// Tussocks and stones of several sizes: how bright they are, in about [-0.5,0.5], and their slopes
+// along x and y.
+vec3 stones() {
+    vec3 sum = vec3(0.0);
+    for (int level = 18; level < 33; level += 2) {
+        float cell = 2.0 * deformation.radius / exp2(float(level));
+        float part = shown(cell);
+        if (part <= 0.0) continue;
+        float relief = 0.05 * float(level - 16); // the tiles have that of larger things
+        sum += part * vec3(0.5, relief, relief) * (grain(level) - vec3(0.5, 0.0, 0.0));
     }
-    return 0.55 * sum;
+    return sum;
 }
 
 struct Place {
@@ -142,7 +149,7 @@ Place placeAt(vec3 up, float height, float slope) {
     return p;
 }
 
-vec3 land(Place p) {
+vec3 land(Place p, float stones) {
     vec3 desert = mix(vec3(0.31, 0.205, 0.10), vec3(0.22, 0.12, 0.058), 0.5 + p.patchy);
     vec3 steppe = mix(vec3(0.165, 0.145, 0.062), vec3(0.115, 0.115, 0.045), 0.5 + p.patchy);
     vec3 forest = mix(vec3(0.018, 0.043, 0.012), vec3(0.042, 0.068, 0.020), 0.5 + p.patchy);
@@ -153,25 +160,33 @@ vec3 land(Place p) {
     c = mix(c, tundra, smoothstep(0.52, 0.72, p.cold));
     c = mix(c, vec3(0.30, 0.26, 0.18), 1.0 - smoothstep(2.0, 12.0, p.height + 8.0 * p.patchy)); // beach
     c = mix(c, rock, 1.0 - smoothstep(0.74, 0.90, p.slope + 0.15 * p.patchy));
-    c *= 1.0 + stones();
+    c *= max(1.0 + stones, 0.0);
     float snow = smoothstep(0.76, 0.90, p.cold) * smoothstep(0.50, 0.72, p.slope + 0.1 * p.patchy);
     return mix(c, vec3(0.80, 0.84, 0.90), snow);
+}
+
+// Waves of several sizes that stand still: which way the water faces.
+vec3 waves(vec3 up) {
+    vec2 slope = vec2(0.0);
+    for (int level = 20; level < 29; level += 2) {
+        float part = shown(2.0 * deformation.radius / exp2(float(level)));
+        if (part > 0.0) slope += part * grain(level).yz;
+    }
+    return normalize(up - 0.07 * (mat2x3(deformation.tangentFrameToWorld) * slope));
 }
 
 // What water reflects of the light above it: the sun's path, wide as the waves are steep, and sky.
 vec3 sea(Place p, vec3 toEye, vec3 sunlight, vec3 skylight, float depth) {
     vec3 deep = vec3(0.006, 0.022, 0.050), shallow = vec3(0.030, 0.105, 0.110);
     vec3 body = mix(deep, shallow, exp(-depth / 45.0));
-    vec2 waves = vec2(grain(22), grain(23)) * shown(3.0) +
-                 0.5 * vec2(grain(24), grain(25)) * shown(0.8);
-    float facing = max(dot(p.up, toEye), 0.0);
+    vec3 wave = waves(p.up);
+    float facing = max(dot(wave, toEye), 0.0);
     float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0) * 0.7;
     vec3 halfway = normalize(toEye + sunDirection());
-    float tilt = dot(p.up, halfway);
+    float tilt = dot(wave, halfway);
     float glitter = 0.9 * exp((1.0 - 1.0 / max(tilt * tilt, 1e-3)) / 0.025);
-    vec3 c = body * (sunlight * max(dot(p.up, sunDirection()), 0.0) / 3.14 + skylight);
-    c += fresnel * (skylight * 0.9) + 0.06 * glitter * sunlight;
-    return c * (0.92 + 0.10 * (waves.x + waves.y));
+    vec3 c = body * (sunlight * max(dot(wave, sunDirection()), 0.0) / 3.14 + skylight);
+    return c + fresnel * (skylight * 0.9) + 0.06 * glitter * sunlight;
 }
 
 void main() {
@@ -194,8 +209,10 @@ void main() {
         vec3 white = vec3(0.70, 0.76, 0.82) * (sunlight * max(sunHeight, 0.0) / 3.14 + skylight);
         light = mix(light, white, ice);
     } else {
-        float lit = max(dot(normal, sunDirection()), 0.0);
-        light = land(place) * (sunlight * lit / 3.14 + skylight * (0.6 + 0.4 * place.slope));
+        vec3 stones = stones();
+        vec3 rough = normalize(normal - mat2x3(deformation.tangentFrameToWorld) * stones.yz);
+        float lit = max(dot(rough, sunDirection()), 0.0);
+        light = land(place, stones.x) * (sunlight * lit / 3.14 + skylight * (0.6 + 0.4 * place.slope));
     }
     colour = vec4(developed(light * airLeft + airLight), 1.0);
 }
