@@ -65,6 +65,7 @@ void declarePlannedOceanAndForest(Registry& registry) {
 } // namespace
 
 void declarePlannedPlugins(Registry& registry) {
+    registry.chapter("Planned");
     declarePlannedTerrain(registry);
     declarePlannedGraph(registry);
     declarePlannedRiver(registry);

@@ -44,6 +44,10 @@ void declarePlannedParticles(Registry& registry) {
 } // namespace
 
 void declarePlannedTypes(Registry& registry) {
+    registry.chapter("Planned",
+                     "Types that archives of the original use and that are not built yet. "
+                     "An archive may have them: there is a warning, and it is played "
+                     "without them.");
     declarePlannedDrawing(registry);
     declarePlannedHandlers(registry);
     declarePlannedParticles(registry);

@@ -27,26 +27,39 @@ namespace terrane {
 
 void registerStandardTypes(Registry& registry) {
     declarePlannedTypes(registry); // first: what is built replaces it
+    registry.chapter("The player", "How an archive is played, and what runs its tasks.");
+    declarePlayerElements(registry);
     declareScheduler(registry);
-    declareTextures(registry);
-    declareModule(registry);
-    declareProgram(registry);
-    declareMesh(registry);
+    registry.chapter("Scene", "The tree of things in the world, and what each has and does.");
     declareSceneNode(registry);
+    registry.chapter("Methods", "What happens in a frame: tasks, and tasks made of tasks. A "
+                                "`<method>` of a node runs one of them.");
     declareControlTasks(registry);
-    declareDrawMesh(registry);
     declareSetProgram(registry);
+    declareSetTransforms(registry);
     declareSetState(registry);
     declareSetTarget(registry);
-    declareSetTransforms(registry);
-    declareFont(registry);
+    declareDrawMesh(registry);
     declareShowInfo(registry);
     declareShowLog(registry);
+    registry.chapter("Shaders", "GLSL, and the values that its uniforms start with.");
+    declareModule(registry);
+    declareProgram(registry);
+    registry.chapter("Textures",
+                     "Pictures and other arrays of pixels, from files or to draw into.");
+    declareTextures(registry);
+    registry.chapter("Meshes and fonts", "What is drawn with shaders and textures.");
+    declareMesh(registry);
+    declareFont(registry);
+    registry.chapter("Tiles",
+                     "Where the tiles of producers are kept. A producer has a cache, and a "
+                     "cache has a storage with room for so many tiles.");
     declareProducers(registry);
+    registry.chapter("Terrain", "Ground that is divided where the camera is near, and the methods "
+                                "that update and draw it.");
     declareTerrainNode(registry);
     declareTileSampler(registry);
     declareTerrainTasks(registry);
-    declarePlayerElements(registry);
 }
 
 } // namespace terrane

@@ -99,6 +99,18 @@ const UniformType* matrixType(std::string_view tag) {
     return matrixTag(tag).type;
 }
 
+std::vector<std::string> matrixUniformTags() {
+    std::vector<std::string> tags;
+    for (const char columns : {'2', '3', '4'}) {
+        for (const std::string rows : {"", "x2", "x3", "x4"}) {
+            if (!rows.empty() && rows[1] == columns) continue; // as without its rows
+            for (const char* letter : {"", "f", "d"})
+                tags.push_back(std::string("uniformMatrix") + columns + rows + letter);
+        }
+    }
+    return tags;
+}
+
 void warnOfRest(const ElementDescription& d, const TagType& tag, Diagnostics& diagnostics) {
     if (tag.rest.empty()) return;
     const std::string plain = d.tag.substr(0, d.tag.size() - tag.rest.size());
@@ -203,13 +215,22 @@ const char* const kNameSummary =
 
 } // namespace
 
+std::vector<std::string> vectorUniformTags() {
+    std::vector<std::string> tags;
+    for (const char* letter : {"f", "d", "i", "b", "ui", "vi"}) {
+        for (const char rows : {'1', '2', '3', '4'})
+            tags.push_back(std::string("uniform") + rows + letter);
+    }
+    return tags;
+}
+
 std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry) {
     const auto& matrix =
         registry
             .element<MatrixElement>("uniformMatrix",
                                     "Initial value of a matrix: uniformMatrixNX or "
                                     "uniformMatrixNxMX with N columns, M rows, and X = f or d.")
-            .prefix()
+            .prefix(matrixUniformTags())
             .attribute("name", &MatrixElement::uniform, kNameSummary)
             .required()
             .attribute("value", &MatrixElement::value,
@@ -241,7 +262,7 @@ std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry
             .element<VectorElement>("uniform",
                                     "Initial value of a scalar or vector: uniformNX with 1 to 4 "
                                     "components and X = f, d, i, b or ui.")
-            .prefix()
+            .prefix(vectorUniformTags())
             .attribute("name", &VectorElement::uniform, kNameSummary)
             .required()
             .attribute("x", &VectorElement::x, "first component")

@@ -5,11 +5,15 @@
 #include "resource/declaration.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace terrane {
 
 class Registry;
+
+/// `uniform1f` to `uniform4ui`.
+std::vector<std::string> vectorUniformTags();
 
 /// Declares the children of `module` that give uniforms their initial values (ork reference 2.5),
 /// in the order in which tags are to be matched.

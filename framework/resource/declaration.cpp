@@ -13,6 +13,10 @@ bool ElementDeclaration::matches(std::string_view name) const {
     return prefix ? name.starts_with(tag) : name == tag;
 }
 
+std::vector<std::string> ElementDeclaration::tags() const {
+    return prefix ? knownTags : std::vector<std::string>{tag};
+}
+
 const AttributeDeclaration* ElementDeclaration::attribute(std::string_view name) const {
     for (const AttributeDeclaration& a : attributes) {
         if (a.name == name) return &a;

@@ -80,8 +80,11 @@ struct ChildRule {
 /// An element type.
 struct ElementDeclaration {
     std::string tag;
-    bool prefix = false; ///< matches every tag that starts with `tag`
+    bool prefix = false;                ///< matches every tag that starts with `tag`
+    std::vector<std::string> knownTags; ///< with a prefix: those that people write, for schemas
     std::string summary;
+    std::string example; ///< XML that works, for the manual
+    std::string chapter; ///< of the manual
     std::vector<AttributeDeclaration> attributes;
     std::vector<ChildRule> childRules;
     bool named = true;            ///< accepts `name` (resources); local elements declare their own
@@ -102,6 +105,8 @@ struct ElementDeclaration {
 
     bool isA(std::type_index interface) const;
     bool matches(std::string_view name) const;
+    /// The tag, or those known of a prefix.
+    std::vector<std::string> tags() const;
     const AttributeDeclaration* attribute(std::string_view name) const; ///< aliases included
     std::vector<std::string> attributeNames() const;
 };
@@ -186,8 +191,14 @@ public:
             {.anyResource = true, .keyed = true, .summary = std::move(summary)});
         return self();
     }
-    /// The tag is a prefix: `uniform` matches `uniform3f`.
-    Derived& prefix() { return declaration_.prefix = true, self(); }
+    /// The tag is a prefix: `uniform` matches `uniform3f`. A schema can't say so, and lists the
+    /// tags that are known.
+    Derived& prefix(std::vector<std::string> knownTags) {
+        declaration_.knownTags = std::move(knownTags);
+        return declaration_.prefix = true, self();
+    }
+    /// For the manual: an element, or several, as an archive may have them.
+    Derived& example(std::string xml) { return declaration_.example = std::move(xml), self(); }
     /// Unknown attributes are warnings: the original did not check this element.
     Derived& lenient() { return declaration_.lenient = true, self(); }
     /// Beside this attribute nothing else counts: children are ignored, and unknown attributes are

@@ -25,7 +25,7 @@ public:
         result.description->tag = element.tag();
         result.description->place = element.place();
         result.description->name.place = result.description->id.place = element.place();
-        result.valid &= readAttributes(element, declaration, keyed, *result.description);
+        result.valid &= readAttributes(element, declaration, keyed, depth, *result.description);
         if (declaration.planned) {
             diagnostics_.warning("not-built-yet", element.place(),
                                  asTag(element.tag()) + " has no effect yet");
@@ -46,11 +46,12 @@ public:
 
 private:
     bool readAttributes(const XmlElement& element, const ElementDeclaration& declaration,
-                        bool keyed, ElementDescription& description) {
+                        bool keyed, int depth, ElementDescription& description) {
         bool good = true;
         std::set<const AttributeDeclaration*> seen;
         std::set<std::string> names;
         for (const XmlAttribute& xml : element.attributes()) {
+            if (depth == 0 && isHint(xml.name)) continue;
             if (!names.insert(xml.name).second) {
                 diagnostics_.error("duplicate-attribute", xml.namePlace,
                                    "attribute " + inQuotes(xml.name) + " is given twice",
@@ -83,6 +84,11 @@ private:
             if (a.locate && !seen.contains(&a)) a.locate(description, description.place);
         }
         return good;
+    }
+
+    // What tells editors the schema of a file, at its root.
+    static bool isHint(const std::string& name) {
+        return name.starts_with("xmlns:") || name.starts_with("xsi:");
     }
 
     // Whether the attribute that stands for everything else is given.

@@ -3,6 +3,8 @@
 
 #include "core/text.h"
 
+#include <algorithm>
+
 namespace terrane {
 
 const ElementDeclaration* Registry::find(std::string_view tag) const {
@@ -39,11 +41,31 @@ std::vector<std::string> Registry::tagsOf(std::type_index interface) const {
     return names;
 }
 
-std::string Registry::describeInterface(std::type_index interface) const {
-    std::string tags = listOfNames(tagsOf(interface));
+void Registry::chapter(const std::string& title, std::string summary) {
+    const bool known = std::any_of(chapters_.begin(), chapters_.end(),
+                                   [&](const Chapter& each) { return each.title == title; });
+    if (!known) chapters_.push_back({title, std::move(summary)});
+    chapter_ = title;
+}
+
+ElementDeclaration Registry::declared(std::string tag, std::string summary) const {
+    ElementDeclaration d;
+    d.tag = std::move(tag);
+    d.summary = std::move(summary);
+    d.chapter = chapter_;
+    return d;
+}
+
+std::string Registry::interfaceName(std::type_index interface) const {
     const auto named = interfaceNames_.find(interface);
-    if (named == interfaceNames_.end()) return tags;
-    return tags.empty() ? named->second : named->second + " (" + tags + ")";
+    return named == interfaceNames_.end() ? std::string() : named->second;
+}
+
+std::string Registry::describeInterface(std::type_index interface) const {
+    const std::string tags = listOfNames(tagsOf(interface));
+    const std::string name = interfaceName(interface);
+    if (name.empty()) return tags;
+    return tags.empty() ? name : name + " (" + tags + ")";
 }
 
 } // namespace terrane

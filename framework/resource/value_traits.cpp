@@ -2,6 +2,7 @@
 #include "resource/value_traits.h"
 
 #include "core/text.h"
+#include "resource/attribute_range.h"
 #include "resource/declaration.h"
 
 #include <algorithm>
@@ -51,27 +52,13 @@ void checkRest(std::string_view piece, std::size_t length, const Place& place,
                         "a number alone");
 }
 
-std::string rangeText(const AttributeDeclaration& a) {
-    const std::string unit = a.unit.empty() ? "" : " " + a.unit;
-    const bool below = std::isfinite(a.minimum);
-    const bool above = std::isfinite(a.maximum);
-    if (below && above && a.minimumExcluded)
-        return fmt::format("more than {} and at most {}{}", a.minimum, a.maximum, unit);
-    if (below && above) return fmt::format("{} to {}{}", a.minimum, a.maximum, unit);
-    if (!below && !above) return "a finite number";
-    if (below)
-        return fmt::format("{} {}{}", a.minimumExcluded ? "more than" : "at least", a.minimum,
-                           unit);
-    return fmt::format("at most {}{}", a.maximum, unit);
-}
-
 bool inRange(double value, std::string_view piece, const Place& place,
              const AttributeDeclaration& a, Diagnostics& diagnostics) {
     const bool low = a.minimumExcluded ? value <= a.minimum : value < a.minimum;
     const bool finite = std::isfinite(value) || (a.infinite && !std::isnan(value));
     if (!low && !(value > a.maximum) && finite) return true;
     diagnostics.error("out-of-range", place,
-                      "'" + a.name + "' of " + inQuotes(piece) + " is out of range", rangeText(a));
+                      "'" + a.name + "' of " + inQuotes(piece) + " is out of range", rangeOf(a));
     return false;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "render/initial_uniform_elements.h"
 #include "render/mesh.h"
 #include "render/module.h"
 #include "render/texture.h"
@@ -176,8 +177,10 @@ LocalElementBuilder<KeyedDescription<T>> declareKeyed(Registry& registry, const 
 
 const ElementDeclaration& declareValue(Registry& registry) {
     using D = ValueDescription;
+    std::vector<std::string> tags = vectorUniformTags();
+    tags.push_back("uniformSampler");
     return registry.element<D>("uniform", "A value that setProgram hands to shaders.")
-        .prefix()
+        .prefix(std::move(tags))
         .attribute("id", &D::key, "key, and name of the uniform")
         .required()
         .attribute("x", &D::x, "first component")

@@ -174,13 +174,21 @@ void declareAttributes(Builder& builder) {
         .attribute("scale", &D::scale, "multiplies the scale of the file");
 }
 
+// The original's archives number them.
+std::vector<std::string> nestedTags() {
+    std::vector<std::string> tags{"residualProducer"};
+    for (int i = 1; i <= 16; ++i)
+        tags.push_back("residualProducer" + std::to_string(i));
+    return tags;
+}
+
 } // namespace
 
 void declareResidualProducer(Registry& registry) {
     // The original knew nested ones by the first sixteen characters of their tags.
     auto part = registry.element<ResidualDescription>(
         "residualProducer", "A file that refines a part of the one around it.");
-    part.prefix().ignored("name", "ignored");
+    part.prefix(nestedTags()).ignored("name", "ignored");
     declareAttributes(part);
     part.child(part.declaration());
 

@@ -10,6 +10,7 @@
 #include "resource/registry.h"
 #include "tools/terrane/allocation_counter.h"
 #include "tools/terrane/new_archive.h"
+#include "tools/terrane/schema_command.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -62,6 +63,7 @@ struct Arguments {
     bool realTime = false, json = false, strict = false, update = false;
     int samples = 1;
     std::string name;
+    std::string format = "xsd", output; ///< of the schema
 };
 
 /// A range that does not fill the help with itself.
@@ -165,7 +167,16 @@ void addOthers(CLI::App& app, Arguments& a) {
 
     CLI::App* fresh = app.add_subcommand("new", "Make a working archive to start from");
     fresh->add_option("name", a.name, "The folder to make")->required();
-    app.add_subcommand("schema", "The schema of archives (not built yet)")->allow_extras();
+    CLI::App* schema =
+        app.add_subcommand("schema", "The schema of archives, or the reference manual");
+    schema->add_option("--format", a.format, "xsd, rnc or md [xsd]")
+        ->type_name("FORMAT")
+        ->check(CLI::IsMember({"xsd", "rnc", "md"}).description(""));
+    schema
+        ->add_option("--output", a.output,
+                     "Where to write it: a file, or a folder for md [standard output]")
+        ->type_name("PATH");
+    addCommon(*schema, a);
     app.add_subcommand("pack", "Pack an archive into one file (not built yet)")->allow_extras();
 }
 
@@ -241,16 +252,15 @@ int test(const Registry& registry, const Arguments& a) {
 
 int dispatch(const CLI::App& app, Arguments& a) {
     if (!a.plugin.empty()) return fail(kWrongUsage, "--plugin is not built yet");
-    for (const char* name : {"schema", "pack"}) {
-        if (app.got_subcommand(name))
-            return fail(kWrongUsage, "'" + std::string(name) + "' is not built yet");
-    }
+    if (app.got_subcommand("pack")) return fail(kWrongUsage, "'pack' is not built yet");
     if (app.got_subcommand("new")) return makeNewArchive(a.name, std::cout, std::cerr);
     Registry registry;
     registerStandardTypes(registry);
     registerStandardPlugins(registry);
     if (app.got_subcommand("play")) return play(registry, a);
     if (app.got_subcommand("check")) return check(registry, a);
+    if (app.got_subcommand("schema"))
+        return writeSchema(registry, a.format, a.output, std::cout, std::cerr);
     return test(registry, a);
 }
 

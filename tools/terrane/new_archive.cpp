@@ -31,6 +31,7 @@ int makeNewArchive(const std::string& name, std::ostream& out, std::ostream& err
     for (const fs::directory_entry& entry : fs::directory_iterator(example, error)) {
         const std::string extension = entry.path().extension().string();
         if (extension != ".xml" && extension != ".glsl") continue; // no pictures, no tests
+        if (entry.path().filename() == "schemas.xml") continue;    // of this repository
         fs::copy_file(entry.path(), fs::path(name) / entry.path().filename(), error);
         if (error) break;
     }

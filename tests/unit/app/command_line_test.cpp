@@ -44,7 +44,7 @@ TEST_CASE_FIXTURE(Terrane, "wrong usage exits with 2 and says why") {
         {"play % --headless --plugin x.so", "not built yet"},
         {"play % --headless --samples 4", "not built yet"},
         {"check", "archive is required"},
-        {"schema", "not built yet"},
+        {"schema --format yaml", "--format"},
         {"pack % out.zip", "not built yet"},
     };
     for (const Row& row : rows) {
@@ -201,4 +201,17 @@ TEST_CASE_FIXTURE(Terrane, "a new archive works at once") {
     CHECK(run("check %/mine").status == 0);
     CHECK(run("play %/mine --headless --size 64x48 --frames 1").status == 0);
     CHECK(run("new %/mine").status == 1); // nothing is overwritten
+}
+
+TEST_CASE_FIXTURE(Terrane, "schema writes each format, on request into files") {
+    contains(run("schema").out, "<xs:schema");
+    contains(run("schema --format rnc").out, "start =");
+    contains(run("schema --format md").out, "# Reference of archives");
+    CHECK(run("schema --output %/a.xsd").status == 0);
+    contains(readFile(*this / "a.xsd").value_or(""), "<xs:schema");
+    CHECK(run("schema --format md --output %/manual").status == 0);
+    contains(readFile(*this / "manual/README.md").value_or(""), "(scene.md#node)");
+    const Result refused = run("schema --output %/missing/a.xsd");
+    CHECK(refused.status == 1);
+    contains(refused.err, "can't write");
 }

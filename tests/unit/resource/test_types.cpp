@@ -79,7 +79,7 @@ void declareBaskets(Registry& registry) {
             .declaration();
     using U = UniformDescription;
     const auto& uniform = registry.element<U>("uniform", "Any tag that starts so.")
-                              .prefix()
+                              .prefix({"uniform", "uniform1", "uniform2"})
                               .attribute("name", &U::name, "a text")
                               .required()
                               .attribute("x", &U::x, "a number")

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "resource/attribute_range.h"
+
+#include "resource/declaration.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace terrane {
+
+std::string rangeOf(const AttributeDeclaration& a) {
+    const std::string unit = a.unit.empty() ? "" : " " + a.unit;
+    const bool below = std::isfinite(a.minimum);
+    const bool above = std::isfinite(a.maximum);
+    if (below && above && a.minimumExcluded)
+        return fmt::format("more than {} and at most {}{}", a.minimum, a.maximum, unit);
+    if (below && above) return fmt::format("{} to {}{}", a.minimum, a.maximum, unit);
+    if (!below && !above) return "a finite number";
+    if (below)
+        return fmt::format("{} {}{}", a.minimumExcluded ? "more than" : "at least", a.minimum,
+                           unit);
+    return fmt::format("at most {}{}", a.maximum, unit);
+}
+
+} // namespace terrane

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "resource/schema_text.h"
+
+#include "core/text.h"
+#include "resource/attribute_range.h"
+#include "resource/value_grammar.h"
+
+#include <cctype>
+
+namespace terrane {
+
+namespace {
+
+bool isNumber(ValueKind kind) {
+    return kind == ValueKind::integer || kind == ValueKind::real ||
+           kind == ValueKind::integerList || kind == ValueKind::realList;
+}
+
+std::string rangeSentence(const AttributeDeclaration& a) {
+    if (!isNumber(a.kind)) return {};
+    const std::string range = rangeOf(a);
+    if (range != "a finite number") return asSentence(range);
+    return a.unit.empty() ? "" : "In " + a.unit + ".";
+}
+
+} // namespace
+
+std::string asSentence(std::string text) {
+    if (text.empty()) return text;
+    // A name in quotes, or of a thing spelt otherwise, stays as it is.
+    const bool word = text.size() > 1 && !std::isupper(static_cast<unsigned char>(text[1]));
+    if (word) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    if (text.back() != '.' && text.back() != '?') text += '.';
+    return text;
+}
+
+std::vector<std::string> referredTags(const Registry& registry, const AttributeDeclaration& a) {
+    std::vector<std::string> tags;
+    if (!a.refersTo || *a.refersTo == std::type_index(typeid(Resource))) return tags;
+    for (const std::string& tag : registry.tagsOf(*a.refersTo)) {
+        if (!registry.find(tag)->planned) tags.push_back(tag);
+    }
+    return tags;
+}
+
+std::string referredName(const Registry& registry, const AttributeDeclaration& a) {
+    if (!a.refersTo) return {};
+    if (*a.refersTo == std::type_index(typeid(Resource))) return "any resource";
+    std::string name = registry.interfaceName(*a.refersTo);
+    if (name.starts_with("a ")) name.erase(0, 2);
+    return name;
+}
+
+std::string documentation(const ElementDeclaration& element) {
+    std::string text = asSentence(element.summary);
+    if (element.planned) text += " Not built yet: accepted, without effect.";
+    return text;
+}
+
+std::string documentation(const Schema& schema, const ElementDeclaration& element,
+                          const AttributeDeclaration& a) {
+    std::string text = asSentence(a.summary);
+    const auto add = [&](const std::string& sentence) {
+        if (!sentence.empty()) text += " " + sentence;
+    };
+    add(rangeSentence(a));
+    if (a.refersTo) {
+        const std::string name = referredName(schema.registry(), a);
+        const std::vector<std::string> tags = referredTags(schema.registry(), a);
+        const bool plain = tags.empty() || (tags.size() == 1 && tags[0] == name);
+        std::string list = listOfNames(tags);
+        if (!plain && !name.empty()) list = name + ": " + list;
+        add("Refers to " + (plain ? name : list) + ".");
+    }
+    for (const std::string& alias : a.aliases)
+        add("Also spelt '" + alias + "'.");
+    if (const auto byDefault = writtenDefault(element, a)) add("Default: " + *byDefault + ".");
+    if (a.planned) add("Has no effect yet.");
+    return text;
+}
+
+std::string asXml(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else if (c == '"')
+            result += "&quot;";
+        else
+            result += c;
+    }
+    return result;
+}
+
+} // namespace terrane
