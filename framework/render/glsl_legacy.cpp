@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/glsl_legacy.h"
 
+#include "render/glsl_legacy_names.h"
 #include "render/glsl_tokens.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,138 +13,6 @@
 namespace terrane {
 
 namespace {
-
-constexpr std::string_view kRenamedPrefix = "terrane_";
-constexpr int kRemovalVersion = 420; // the core profile lost its deprecated names with GLSL 4.20
-
-struct ReservedWord {
-    std::string_view word;
-    int since;              // GLSL version
-    bool qualifier = false; // a keyword with a meaning, not only kept for later
-};
-
-// GLSL specifications 3.30 to 4.50, section 3.6 "Keywords".
-constexpr std::array kReservedWords{
-    ReservedWord{"active", 130},
-    ReservedWord{"asm", 130},
-    ReservedWord{"cast", 130},
-    ReservedWord{"class", 130},
-    ReservedWord{"common", 130},
-    ReservedWord{"enum", 130},
-    ReservedWord{"extern", 130},
-    ReservedWord{"external", 130},
-    ReservedWord{"filter", 130},
-    ReservedWord{"fixed", 130},
-    ReservedWord{"goto", 130},
-    ReservedWord{"half", 130},
-    ReservedWord{"inline", 130},
-    ReservedWord{"input", 130},
-    ReservedWord{"interface", 130},
-    ReservedWord{"long", 130},
-    ReservedWord{"namespace", 130},
-    ReservedWord{"noinline", 130},
-    ReservedWord{"output", 130},
-    ReservedWord{"packed", 130},
-    ReservedWord{"partition", 130},
-    ReservedWord{"public", 130},
-    ReservedWord{"short", 130},
-    ReservedWord{"sizeof", 130},
-    ReservedWord{"static", 130},
-    ReservedWord{"superp", 130},
-    ReservedWord{"template", 130},
-    ReservedWord{"this", 130},
-    ReservedWord{"typedef", 130},
-    ReservedWord{"union", 130},
-    ReservedWord{"unsigned", 130},
-    ReservedWord{"using", 130},
-    ReservedWord{"resource", 420},
-    ReservedWord{"patch", 400, true},
-    ReservedWord{"precise", 400, true},
-    ReservedWord{"sample", 400, true},
-    ReservedWord{"coherent", 420, true},
-    ReservedWord{"readonly", 420, true},
-    ReservedWord{"restrict", 420, true},
-    ReservedWord{"volatile", 130, true},
-    ReservedWord{"writeonly", 420, true},
-    ReservedWord{"buffer", 430, true},
-    ReservedWord{"shared", 430, true},
-};
-
-// Extensions whose contents core GLSL 3.30 has, under the names that texture functions and geometry
-// inputs are rewritten to; drivers that don't know them refuse `require`.
-constexpr std::array<std::string_view, 3> kAbsorbedExtensions{
-    "GL_EXT_gpu_shader4", "GL_EXT_geometry_shader4", "GL_EXT_texture_array"};
-
-bool startsWithAny(std::string_view& text, std::initializer_list<std::string_view> choices) {
-    for (const std::string_view choice : choices) {
-        if (!text.starts_with(choice)) continue;
-        text.remove_prefix(choice.size());
-        return true;
-    }
-    return false;
-}
-
-bool isLookupSuffix(std::string_view suffix) {
-    constexpr std::array<std::string_view, 12> suffixes{
-        "",       "Proj",       "Lod",       "ProjLod",       "Grad",       "ProjGrad",
-        "Offset", "ProjOffset", "LodOffset", "ProjLodOffset", "GradOffset", "ProjGradOffset"};
-    return std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end();
-}
-
-// Part of the deprecated names that core GLSL had until 4.10.
-bool wasCore(std::string_view dimension, std::string_view suffix, bool shadow) {
-    const bool plain = suffix.empty() || suffix == "Lod";
-    const bool projected = suffix == "Proj" || suffix == "ProjLod";
-    if (dimension == "1D" || dimension == "2D") return plain || projected;
-    if (shadow) return false;
-    return dimension == "3D" ? plain || projected : dimension == "Cube" && plain;
-}
-
-struct NewName {
-    std::string name;
-    bool wrapped = false; // the call becomes vec4(...): old shadow functions gave four components
-};
-
-// What a texture function is called in core GLSL, when it has to be renamed.
-std::optional<NewName> newTextureFunction(std::string_view name, int version) {
-    std::string_view rest = name;
-    std::string_view base;
-    bool shadow = false;
-    if (startsWithAny(rest, {"texelFetch"}))
-        base = "texelFetch";
-    else if (startsWithAny(rest, {"textureSize"}))
-        base = "textureSize";
-    else if (startsWithAny(rest, {"texture"}))
-        base = "texture";
-    else if (startsWithAny(rest, {"shadow"}))
-        shadow = true;
-    else
-        return std::nullopt;
-    const std::string_view from = rest;
-    if (!startsWithAny(rest, {"1DArray", "2DArray", "2DRect", "CubeArray", "Cube", "Buffer", "1D",
-                              "2D", "3D"}))
-        return std::nullopt;
-    const std::string_view dimension = from.substr(0, from.size() - rest.size());
-    if (base == "textureSize") {
-        if (!rest.empty()) return std::nullopt;
-        return NewName{"textureSize"};
-    }
-    if (base == "texelFetch") {
-        if (!rest.empty() && rest != "Offset") return std::nullopt;
-        return NewName{"texelFetch" + std::string(rest)};
-    }
-    for (const std::string_view vendor : {"ARB", "EXT"}) {
-        if (rest.ends_with(vendor)) rest.remove_suffix(vendor.size());
-    }
-    if (!isLookupSuffix(rest)) return std::nullopt;
-    const bool vendorName =
-        name.size() != (shadow ? 6 : base.size()) + dimension.size() + rest.size();
-    if (!vendorName && wasCore(dimension, rest, shadow) && version < kRemovalVersion)
-        return std::nullopt;
-    // Core GLSL has rectangle textures, but their old function stayed valid where it was.
-    if (shadow) return NewName{"vec4(texture" + std::string(rest), true};
-    return NewName{"texture" + std::string(rest)};
-}
 
 class Rewriter {
 public:
@@ -175,6 +43,7 @@ public:
                 rewriteWord(i);
         }
         if (edits_.empty()) return text_;
+        declareOutputs();
         std::stable_sort(edits_.begin(), edits_.end(),
                          [](const auto& a, const auto& b) { return a.offset < b.offset; });
         return text_.edited(edits_);
@@ -223,6 +92,7 @@ private:
         const std::string_view word = tokens_[i].text;
         if (word == "gl_VerticesIn") return replace(i, "gl_in.length()");
         if (word == "gl_InstanceIDARB") return replace(i, "gl_InstanceID");
+        if (word == kFragColor.old || word == kFragData.old) return rewriteOutput(i);
         if (word != "gl_PositionIn" && word != "gl_PointSizeIn") return;
         const std::size_t close = isSymbol(i + 1, "[") ? closing(i + 1, "[", "]") : 0;
         if (close == 0) return;
@@ -230,6 +100,55 @@ private:
         record(i, "gl_in[]." + member);
         edits_.push_back({tokens_[i].offset, word.size(), "gl_in"});
         insertBehind(close, "." + member);
+    }
+
+    // Core GLSL has no outputs of its own: they are declared where nothing stands before them but
+    // directives.
+    void rewriteOutput(std::size_t i) {
+        if (version_ < kRemovalVersion || stage_ != ShaderStage::fragment) return;
+        const OldOutput& output = tokens_[i].text == kFragColor.old ? kFragColor : kFragData;
+        replace(i, std::string(output.name));
+        outputs_.insert(output.declaration);
+    }
+
+    void declareOutputs() {
+        if (outputs_.empty()) return;
+        std::string declarations;
+        for (const std::string_view output : outputs_)
+            declarations += std::string(output) + "\n";
+        edits_.insert(edits_.begin(), {tokens_[firstBehindExtensions()].offset, 0, declarations});
+    }
+
+    // #extension lines must stand before everything else. When the last one is conditional, what
+    // follows its #endif will do, unless the condition encloses more than directives.
+    std::size_t firstBehindExtensions() const {
+        std::size_t first = 0;
+        int depth = 0;
+        int extensionDepth = 0;
+        bool code = false; // since the last extension
+        for (std::size_t i = 0; i < tokens_.size(); ++i) {
+            const GlslToken& token = tokens_[i];
+            code = code || token.directive.empty();
+            const bool directiveName = i > 0 && token.directive.data() == token.text.data();
+            if (directiveName && token.text.starts_with("if")) ++depth;
+            const bool ends = directiveName && token.text == "endif";
+            if (ends) --depth;
+            const bool extension = directiveName && token.text == "extension";
+            if (extension) extensionDepth = depth;
+            if (extension) code = false;
+            const bool leaves = ends && !code && depth < extensionDepth;
+            if (leaves) extensionDepth = depth;
+            if (extension || leaves) first = behindDirective(i);
+        }
+        return first < tokens_.size() ? first : 0;
+    }
+
+    // The token after the directive that token i belongs to.
+    std::size_t behindDirective(std::size_t i) const {
+        const std::string_view directive = tokens_[i].directive;
+        while (i < tokens_.size() && tokens_[i].directive.data() == directive.data())
+            ++i;
+        return i;
     }
 
     void rewriteStorage(std::size_t i) {
@@ -245,9 +164,7 @@ private:
         while (last + 1 < tokens_.size() && tokens_[last + 1].directive.data() == directive.data())
             ++last;
         const std::string_view argument = i + 1 <= last ? tokens_[i + 1].text : "";
-        const bool absorbed = std::find(kAbsorbedExtensions.begin(), kAbsorbedExtensions.end(),
-                                        argument) != kAbsorbedExtensions.end();
-        if (i == 0 || (directive == "extension" && !absorbed)) return last;
+        if (i == 0 || (directive == "extension" && !isAbsorbedExtension(argument))) return last;
         // The '#' stands before the directive's name.
         const std::size_t begin = tokens_[i - 1].offset;
         const std::size_t end = tokens_[last].offset + tokens_[last].text.size();
@@ -260,11 +177,9 @@ private:
 
     bool isReservedHere(std::size_t i) const {
         const std::string_view word = tokens_[i].text;
-        const auto found =
-            std::find_if(kReservedWords.begin(), kReservedWords.end(),
-                         [&](const auto& reserved) { return reserved.word == word; });
-        if (found == kReservedWords.end() || version_ < found->since) return false;
-        return !insideLayout(i) && (!found->qualifier || isIdentifier(i));
+        const ReservedWord* const reserved = findReservedWord(word);
+        if (!reserved || version_ < reserved->since) return false;
+        return !insideLayout(i) && (!reserved->qualifier || isIdentifier(i));
     }
 
     // Whether a word that may be a qualifier stands as a name: a qualifier has a type, another
@@ -315,7 +230,18 @@ private:
     std::vector<GlslToken> tokens_;
     std::unordered_set<std::string_view> own_;
     std::vector<GlslText::Edit> edits_;
+    std::set<std::string_view> outputs_; ///< declarations that are needed
 };
+
+// What a name of ours stands for; empty when it is none of ours.
+std::string_view originalGlslWord(std::string_view word) {
+    for (const OldOutput& output : {kFragColor, kFragData}) {
+        if (word == output.name) return output.old;
+    }
+    if (!word.starts_with(kRenamedPrefix)) return {};
+    word.remove_prefix(kRenamedPrefix.size());
+    return findReservedWord(word) ? word : std::string_view();
+}
 
 std::string describe(const std::string& from, const std::set<std::string>& to) {
     if (to.contains("")) return "'" + from + "' taken out";
@@ -357,21 +283,17 @@ std::string originalGlslName(std::string_view name) {
     std::size_t i = 0;
     while (i < name.size()) {
         const bool partBegins = i == 0 || !isGlslIdentifierPart(name[i - 1]);
-        if (partBegins && name.substr(i).starts_with(kRenamedPrefix)) {
-            std::size_t end = i + kRenamedPrefix.size();
-            while (end < name.size() && isGlslIdentifierPart(name[end]))
-                ++end;
-            const std::string_view word =
-                name.substr(i + kRenamedPrefix.size(), end - i - kRenamedPrefix.size());
-            const bool ours = std::any_of(kReservedWords.begin(), kReservedWords.end(),
-                                          [&](const auto& r) { return r.word == word; });
-            if (ours) {
-                result += word;
-                i = end;
-                continue;
-            }
+        std::size_t end = i;
+        while (partBegins && end < name.size() && isGlslIdentifierPart(name[end]))
+            ++end;
+        const std::string_view word = name.substr(i, end - i);
+        const std::string_view original = originalGlslWord(word);
+        if (original.empty()) {
+            result += name[i++];
+            continue;
         }
-        result += name[i++];
+        result += original;
+        i = end;
     }
     return result;
 }

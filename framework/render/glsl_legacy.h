@@ -20,7 +20,8 @@ namespace terrane {
 /// - words that are reserved in the module's version (`filter`, `input`; from 4.00 on `sample`,
 ///   `patch`...; from 4.30 on `buffer`, `shared`) and stand as identifiers: a prefix is put before
 ///   them, which reflection takes off again (originalGlslName)
-/// - from GLSL 4.20 on `attribute`, `varying`
+/// - from GLSL 4.20 on `attribute`, `varying`; `gl_FragColor` and `gl_FragData` to declared outputs
+///   (the former to the first draw buffer only, no longer to all of them)
 /// - `#extension` lines for what is core by now; `#line`, which would confuse places
 ///
 /// What an author defines (a macro or a function of that name) is left alone.

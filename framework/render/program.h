@@ -62,6 +62,8 @@ public:
     UniformValue value() const;
     /// Of samplers; null without one.
     const Texture* texture() const;
+    /// The same, to draw into; null also for one that somebody else keeps (set(const Texture&)).
+    std::shared_ptr<Texture> sharedTexture() const;
 
 private:
     friend class Program;
@@ -229,6 +231,7 @@ private:
     void setTexture(Slot& slot, std::shared_ptr<const Texture> texture);
     void checkTexture(Slot& slot, const Texture* texture);
     static const Texture* textureOf(const Slot& slot);
+    static std::shared_ptr<Texture> sharedTextureOf(const Slot& slot);
     void reportMismatch(Slot& slot, std::string_view given);
 
     void bindValues();

@@ -129,6 +129,10 @@ const Texture* UniformHandle::texture() const {
     return active() ? Program::textureOf(program_->resolved(slot_)) : nullptr;
 }
 
+std::shared_ptr<Texture> UniformHandle::sharedTexture() const {
+    return active() ? Program::sharedTextureOf(program_->resolved(slot_)) : nullptr;
+}
+
 void Program::setComponents(int index, const UniformComponents& components) {
     Slot& slot = resolved(index);
     if (!slot.active()) return;
@@ -159,6 +163,13 @@ UniformValue Program::read(const Slot& slot) const {
 const Texture* Program::textureOf(const Slot& slot) {
     if (!slot.textureEntry) return slot.texture.get();
     return static_cast<const Texture*>(slot.textureEntry->instance.get());
+}
+
+std::shared_ptr<Texture> Program::sharedTextureOf(const Slot& slot) {
+    if (slot.textureEntry) return std::static_pointer_cast<Texture>(slot.textureEntry->instance);
+    if (slot.texture.use_count() == 0) return nullptr;
+    // Reading is all that a program does with it; whoever shared it may draw into it.
+    return std::const_pointer_cast<Texture>(slot.texture);
 }
 
 void Program::setTexture(Slot& slot, std::shared_ptr<const Texture> texture) {

@@ -68,6 +68,11 @@ BindContext::Call::Call(BindContext& context, SceneNode& owner, const std::strin
     entered_ = true;
 }
 
+void BindContext::finish() const {
+    for (const auto& work : whenBound_)
+        work();
+}
+
 bool BindContext::count(const Place& place) {
     if (++bound_ <= kMostTasks) return true;
     if (bound_ == kMostTasks + 1) {

@@ -6,6 +6,7 @@
 #include "resource/value.h"
 #include "scene/scene_node.h"
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +60,11 @@ public:
     /// For the duration of a loop's body, and, as in the original, after the loop.
     void setVariable(const std::string& name, SceneNode* node);
 
+    /// Has something done as soon as everything is bound, and so all programs are linked.
+    void whenBound(std::function<void()> work) { whenBound_.push_back(std::move(work)); }
+    /// Does what was left for then.
+    void finish() const;
+
     /// Counts a call or a round of a loop. False, reported once, beyond what any frame needs.
     bool count(const Place& place);
 
@@ -87,6 +93,7 @@ private:
     int bound_ = 0;
     std::vector<std::pair<std::string, SceneNode*>> variables_;
     std::vector<std::pair<SceneNode*, std::string>> calls_;
+    std::vector<std::function<void()>> whenBound_;
 };
 
 } // namespace terrane

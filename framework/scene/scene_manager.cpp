@@ -152,6 +152,7 @@ bool SceneManager::plan() {
     BindContext context(*this, *eye);
     const BindContext::Call call(context, *eye, *cameraMethod_);
     plan_ = method->second.task->bind(context);
+    context.finish();
     return plan_ != nullptr;
 }
 

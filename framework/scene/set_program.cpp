@@ -68,7 +68,7 @@ public:
         scene_.drawState().program = program_.get();
         for (const NodeUniform& u : uniforms_) {
             if (u.texture)
-                u.uniform.set(**u.texture);
+                u.uniform.set(std::shared_ptr<const Texture>(u.texture->shared()));
             else
                 u.uniform.set(u.value);
         }

@@ -7,6 +7,7 @@
 #include "resource/registry.h"
 #include "scene/attachment_words.h"
 #include "scene/bind_context.h"
+#include "scene/module_sampler.h"
 #include "scene/scene_manager.h"
 
 #include <algorithm>
@@ -31,9 +32,11 @@ struct SetTargetDescription : ElementDescription {
 struct BoundBuffer {
     AttachmentPoint point;
     Ref<Texture> texture;
+    ModuleSampler sampler; ///< whose texture of the moment is meant, instead
     int level;
     int layer;
-    Place place;
+    Attr<Target> name;
+    std::shared_ptr<Texture> current = {};
 };
 
 /// Nothing that follows is seen: it would be drawn where it does not belong.
@@ -79,7 +82,7 @@ public:
 
     bool run() override {
         Framebuffer& framebuffer = scene_.offscreen();
-        const bool usable = attachAll(framebuffer) && isComplete(framebuffer);
+        const bool usable = findTextures() && attachAll(framebuffer) && isComplete(framebuffer);
         scene_.drawState().framebuffer = usable ? &framebuffer : &scene_.nowhere();
         if (!usable) return false;
         const Attachment& last = framebuffer.attachment(buffers_.back().point);
@@ -87,11 +90,51 @@ public:
         return true;
     }
 
+    /// What can be told once all programs are linked.
+    void check() {
+        for (BoundBuffer& buffer : buffers_) {
+            const std::shared_ptr<Texture> texture = currentTexture(buffer);
+            if (texture) canResize(buffer, *texture);
+            // One without a texture may get it from what is drawn before.
+            if (!texture && buffer.sampler && !buffer.sampler.exists()) reportMissing(buffer);
+        }
+    }
+
 private:
+    static std::shared_ptr<Texture> currentTexture(BoundBuffer& buffer) {
+        return buffer.sampler ? buffer.sampler.texture() : buffer.texture.shared();
+    }
+
+    bool findTextures() {
+        bool found = true;
+        for (BoundBuffer& buffer : buffers_) {
+            buffer.current = currentTexture(buffer);
+            if (!buffer.current) reportMissing(buffer);
+            found = found && buffer.current && canResize(buffer, *buffer.current);
+        }
+        return found;
+    }
+
+    void reportMissing(const BoundBuffer& buffer) const {
+        scene_.resources().diagnostics().error("missing-texture", buffer.name.place,
+                                               "'" + buffer.name->node + "." + buffer.name->name +
+                                                   "' has no texture to draw into",
+                                               "a sampler with a texture of an archive");
+    }
+
+    bool canResize(const BoundBuffer& buffer, const Texture& texture) const {
+        const TextureTarget target = texture.description().target;
+        if (!autoResize_ || target == TextureTarget::texture2D) return true;
+        scene_.resources().diagnostics().error("wrong-kind", buffer.name.place,
+                                               "only 2D textures can be resized with the screen",
+                                               "a texture2D, or autoResize=\"false\"");
+        return false;
+    }
+
     bool attachAll(Framebuffer& framebuffer) const {
         detachOthers(framebuffer);
         for (const BoundBuffer& buffer : buffers_) {
-            if (autoResize_) resize(*buffer.texture);
+            if (autoResize_) resize(*buffer.current);
             if (!attach(framebuffer, buffer)) return false;
         }
         return true;
@@ -101,20 +144,20 @@ private:
     bool isComplete(const Framebuffer& framebuffer) {
         std::array<std::uint64_t, kAttachmentPoints> serials{};
         for (const BoundBuffer& buffer : buffers_)
-            serials[std::size_t(buffer.point)] = buffer.texture->serial();
+            serials[std::size_t(buffer.point)] = buffer.current->serial();
         if (checked_ == serials) return complete_;
         checked_ = serials;
         return complete_ = framebuffer.isComplete(scene_.resources().diagnostics(), place_);
     }
 
     bool attach(Framebuffer& framebuffer, const BoundBuffer& buffer) const {
-        const Attachment attachment{buffer.texture.shared(), buffer.level, buffer.layer};
+        const Attachment attachment{buffer.current, buffer.level, buffer.layer};
         const std::string problem = Framebuffer::problem(buffer.point, attachment);
         if (problem.empty()) {
             framebuffer.attach(buffer.point, attachment);
             return true;
         }
-        scene_.resources().diagnostics().error("bad-attachment", buffer.place, problem);
+        scene_.resources().diagnostics().error("bad-attachment", buffer.name.place, problem);
         return false;
     }
 
@@ -140,29 +183,32 @@ private:
     bool complete_ = false;
 };
 
-// `node.id` is a sampler value of the node; `node.module:sampler` what a module gives a sampler.
-Ref<Texture> findTexture(const Attr<Target>& name, BindContext& context) {
+// `node.id` is a sampler value of the node; `node.module:sampler` what a module's sampler has.
+// False, with a diagnostic, when there is no such thing.
+bool findTexture(BoundBuffer& buffer, BindContext& context) {
+    const Attr<Target>& name = buffer.name;
     SceneNode* const node = context.nodeOf(name);
-    if (!node) return context.resources().get<Texture>(name->name, name.place);
+    if (!node) {
+        buffer.texture = context.resources().get<Texture>(name->name, name.place);
+        return static_cast<bool>(buffer.texture);
+    }
     const std::size_t colon = name->name.find(':');
     if (colon == std::string::npos) {
         const auto value = node->values.find(name->name);
         const bool sampler =
             value != node->values.end() && value->second.type == NodeValue::Type::sampler;
-        if (sampler) return value->second.texture; // if empty, told at the node
-        context.reportMissing(name, *node, "texture");
-        return {};
+        if (sampler) buffer.texture = value->second.texture; // if empty, told at the node
+        if (!sampler) context.reportMissing(name, *node, "texture");
+        return static_cast<bool>(buffer.texture);
     }
     const auto module = node->modules.find(name->name.substr(0, colon));
-    const std::string sampler = name->name.substr(colon + 1);
-    if (module != node->modules.end() && !module->second) return {}; // told at the node
-    if (module != node->modules.end()) {
-        for (const InitialUniform& uniform : module->second->uniforms()) {
-            if (uniform.name == sampler && uniform.texture) return uniform.texture;
-        }
+    if (module == node->modules.end()) {
+        context.reportMissing(name, *node, "texture");
+        return false;
     }
-    context.reportMissing(name, *node, "texture");
-    return {};
+    if (!module->second) return false; // told at the node
+    buffer.sampler = ModuleSampler(module->second, name->name.substr(colon + 1));
+    return true;
 }
 
 class SetTarget : public SceneTask {
@@ -183,24 +229,19 @@ public:
         std::vector<BoundBuffer> bound;
         bool complete = true;
         for (const BufferDescription& b : buffers_) {
-            const Ref<Texture> texture = findTexture(b.texture, context);
-            complete &= texture && canResize(*texture, b, context);
-            bound.push_back({b.point, texture, b.level, b.layer, b.texture.place});
+            BoundBuffer buffer{b.point, {}, {}, b.level, b.layer, b.texture};
+            complete &= findTexture(buffer, context);
+            bound.push_back(std::move(buffer));
         }
         if (!complete || bound.empty()) return makeStep<SetNowhereTask>(context.scene());
-        return makeStep<SetTargetTask>(std::move(bound), autoResize_, place_, context.scene());
+        auto task =
+            std::make_shared<SetTargetTask>(std::move(bound), autoResize_, place_, context.scene());
+        // A sampler may have its texture from a program that is linked later in this frame.
+        context.whenBound([task] { task->check(); });
+        return std::make_unique<BoundStep>(task);
     }
 
 private:
-    bool canResize(const Texture& texture, const BufferDescription& b, BindContext& context) const {
-        const TextureTarget target = texture.description().target;
-        if (!autoResize_ || target == TextureTarget::texture2D) return true;
-        context.diagnostics().error("wrong-kind", b.texture.place,
-                                    "only 2D textures can be resized with the screen",
-                                    "a texture2D, or autoResize=\"false\"");
-        return false;
-    }
-
     bool autoResize_;
     Place place_;
     bool toScreen_ = true; ///< no buffer is listed

@@ -82,6 +82,31 @@ TEST_CASE("Old spellings are rewritten where core GLSL refuses them") {
         {"conditions name macros", 330, "#if filter\n#endif", "#if filter\n#endif"},
         {"varyings in 3.30", 330, "varying vec4 a;", "varying vec4 a;"},
         {"varyings in 4.20", 420, "varying vec4 a;", "in vec4 a;"},
+        {"output in 3.30", 330, "gl_FragColor = c;", "gl_FragColor = c;"},
+        {"output in 4.20", 420, "void main() { gl_FragColor = c; gl_FragColor.a = 1; }",
+         "layout(location = 0) out vec4 terrane_FragColor;\n"
+         "void main() { terrane_FragColor = c; terrane_FragColor.a = 1; }"},
+        {"outputs in 4.20", 450, "in vec4 c; void main() { gl_FragData[1] = c; }",
+         "layout(location = 0) out vec4 terrane_FragData[gl_MaxDrawBuffers];\n"
+         "in vec4 c; void main() { terrane_FragData[1] = c; }"},
+        {"output, with an old word first", 420, "varying vec4 c; void main() { gl_FragColor = c; }",
+         "layout(location = 0) out vec4 terrane_FragColor;\n"
+         "in vec4 c; void main() { terrane_FragColor = c; }"},
+        {"output behind extensions", 420, "#extension GL_A : enable\nvoid main() { gl_FragColor; }",
+         "#extension GL_A : enable\nlayout(location = 0) out vec4 terrane_FragColor;\n"
+         "void main() { terrane_FragColor; }"},
+        {"output behind conditional extensions", 420,
+         "#ifdef A\n#if B\n#extension A : enable\n#endif\n#else\n#extension B : enable\n#endif\n"
+         "void main() { gl_FragColor; }",
+         "#ifdef A\n#if B\n#extension A : enable\n#endif\n#else\n#extension B : enable\n#endif\n"
+         "layout(location = 0) out vec4 terrane_FragColor;\nvoid main() { terrane_FragColor; }"},
+        {"output in the condition of an extension", 420,
+         "#ifdef _FRAGMENT_\n#extension A : enable\nvoid main() { gl_FragColor; }\n#endif",
+         "#ifdef _FRAGMENT_\n#extension A : enable\n"
+         "layout(location = 0) out vec4 terrane_FragColor;\n"
+         "void main() { terrane_FragColor; }\n#endif"},
+        {"output of a macro", 420, "#define OUT gl_FragColor\nx",
+         "layout(location = 0) out vec4 terrane_FragColor;\n#define OUT terrane_FragColor\nx"},
         {"extensions that became core", 330, "#extension GL_EXT_gpu_shader4 : require\nx", "\nx"},
         {"other extensions", 330, "#extension GL_ARB_gpu_shader5 : enable\nx",
          "#extension GL_ARB_gpu_shader5 : enable\nx"},
@@ -93,6 +118,7 @@ TEST_CASE("Old spellings are rewritten where core GLSL refuses them") {
     }
     CHECK(rewrite("attribute vec4 p; varying vec2 q;", 430, ShaderStage::vertex) ==
           "in vec4 p; out vec2 q;");
+    CHECK(rewrite("gl_FragColor", 430, ShaderStage::vertex) == "gl_FragColor");
 }
 
 TEST_CASE("What an author defines keeps its name") {
@@ -144,14 +170,33 @@ TEST_CASE("Renamed words get their names back") {
     CHECK(originalGlslName("myterrane_filter") == "myterrane_filter");
     CHECK(originalGlslName("terrane_filters") == "terrane_filters");
     CHECK(originalGlslName("`terrane_filter' undeclared") == "`filter' undeclared");
+    CHECK(originalGlslName("terrane_FragColor") == "gl_FragColor");
+    CHECK(originalGlslName("`terrane_FragData' unused") == "`gl_FragData' unused");
+    CHECK(originalGlslName("terrane_FragColors") == "terrane_FragColors");
     CHECK(originalGlslName("") == "");
 }
 
 TEST_CASE("Any bytes can be rewritten, and need it once") {
-    for (const std::string hostile :
-         {"", "#", "#extension", "#line", "gl_PositionIn[", "gl_PositionIn", "shadow2D(", "filter",
-          "/*", "texture2D(", "#define", "#define filter", "\xff\xfe filter \x01", "1.0.0.0e++",
-          "gl_PositionIn[[[[]", "layout(((((packed"}) {
+    for (const std::string hostile : {"",
+                                      "#",
+                                      "#extension",
+                                      "#line",
+                                      "gl_PositionIn[",
+                                      "gl_PositionIn",
+                                      "shadow2D(",
+                                      "filter",
+                                      "/*",
+                                      "texture2D(",
+                                      "#define",
+                                      "#define filter",
+                                      "\xff\xfe filter \x01",
+                                      "1.0.0.0e++",
+                                      "gl_PositionIn[[[[]",
+                                      "layout(((((packed",
+                                      "gl_FragColor",
+                                      "#extension x\ngl_FragData",
+                                      "#endif\n#endif\n#extension\ngl_FragData[",
+                                      "gl_FragColor\n#extension"}) {
         CAPTURE(hostile);
         const std::string once = rewrite(hostile, 430);
         CHECK(rewrite(once, 430) == once); // nothing old is left
@@ -168,7 +213,8 @@ TEST_CASE("Random GLSL is rewritten and taken apart without harm") {
                                  "\\\n",   "\n",        " ",
                                  ";",      "{",         "varying",
                                  "1.5",    "include",   "\"x\"",
-                                 ".",      "buffer",    "\r\n"};
+                                 ".",      "buffer",    "\r\n",
+                                 "if",     "endif",     "gl_FragColor"};
     std::minstd_rand random(7);
     for (int round = 0; round < 3000; ++round) {
         std::string source;
@@ -177,7 +223,7 @@ TEST_CASE("Random GLSL is rewritten and taken apart without harm") {
         CAPTURE(source);
         std::vector<LegacyChange> changes;
         const GlslText text =
-            rewriteLegacyGlsl(textOf(source), 430, ShaderStage::vertex, {}, changes);
+            rewriteLegacyGlsl(textOf(source), 430, ShaderStage::fragment, {}, changes);
         const auto offset = offsetOf({.line = int(random() % 5),
                                       .column = int(random() % 20),
                                       .text = "`filter' undeclared"},

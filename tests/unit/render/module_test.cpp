@@ -131,6 +131,41 @@ TEST_CASE_FIXTURE(ProgramFixture, "Old GLSL compiles, and its uniforms keep thei
     CHECK(draw(*program) == glm::vec4(2, 2, 2, 2));
 }
 
+TEST_CASE_FIXTURE(ProgramFixture,
+                  "The outputs that fragment shaders once had draw in any version") {
+    struct Row {
+        int version;
+        const char* fragment;
+        bool rewritten;
+    };
+    const Row rows[] = {
+        {330, "void main() { gl_FragColor = vec4(1, 2, 3, 4); }", false},
+        {420,
+         "#extension GL_ARB_gpu_shader5 : enable\nvoid main() { gl_FragColor = vec4(1, 2, 3, 4); }",
+         true},
+        {450,
+         "#define OUT gl_FragColor\nvoid f() { OUT = vec4(4); }\n"
+         "void main() { f(); gl_FragColor.rgb = vec3(1, 2, 3); }",
+         true},
+        {450, "void main() { gl_FragData[0] = vec4(1, 2, 3, 4); }", true},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.version);
+        CAPTURE(row.fragment);
+        ModuleSource m = source(
+            "m",
+            "#ifdef _VERTEX_\nlayout(location = 0) in vec4 p;\nvoid main() { gl_Position = p; }\n"
+            "#endif\n#ifdef _FRAGMENT_\n" +
+                std::string(row.fragment) + "\n#endif\n");
+        m.version = row.version;
+        const auto program = link(m);
+        REQUIRE(program);
+        CHECK(draw(*program) == glm::vec4(1, 2, 3, 4));
+        CHECK((told().find("legacy-glsl") != std::string::npos) == row.rewritten);
+        diagnostics.clear();
+    }
+}
+
 TEST_CASE_FIXTURE(ProgramFixture, "Old geometry shaders compile") {
     const auto program = link(source("m", R"(
 #ifdef _VERTEX_

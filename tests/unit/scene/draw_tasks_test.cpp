@@ -29,11 +29,13 @@ struct DrawFixture : SceneFixture {
         return "<module name=\"" + name + "\" version=\"330\" source=\"flat.glsl\">" +
                "<uniform4f name=\"colour\" " + colour + "/></module>\n";
     }
-    void loadFrame(const std::string& entries, const std::string& tasks) {
+    void loadFrame(const std::string& entries, const std::string& tasks,
+                   const std::string& ofCamera = "") {
         load(module("red", R"(x="1" w="1")") + module("green", R"(y="1" w="1")") +
              module("half", R"(z="1" w="0.5")") + entries + "<sequence name=\"frame\">\n" + tasks +
              "</sequence><node name=\"scene\"><node flags=\"camera\"><translate x=\"1\" y=\"2\" "
-             "z=\"3\"/><method id=\"draw\" value=\"frame\"/></node></node>");
+             "z=\"3\"/><method id=\"draw\" value=\"frame\"/>" +
+             ofCamera + "</node></node>");
     }
 };
 
@@ -114,6 +116,50 @@ TEST_CASE_FIXTURE(DrawFixture, "setTarget draws into textures and goes back to t
     checkNoDiagnostics();
 }
 
+TEST_CASE_FIXTURE(DrawFixture,
+                  "A target that a module's sampler names is what the sampler has now") {
+    // Two nodes hand a texture of their own to one program; each frame draws into both.
+    const std::string textures =
+        R"(<texture2D name="first" internalformat="RGBA8" width="4" height="4" format="RGBA"
+             type="UNSIGNED_BYTE"/>
+           <texture2D name="second" internalformat="RGBA8" width="4" height="4" format="RGBA"
+             type="UNSIGNED_BYTE"/>)";
+    for (const bool initial : {true, false}) {
+        CAPTURE(initial);
+        scene.reset();
+        resources.reset();
+        load(module("red", R"(x="1" w="1")") + module("green", R"(y="1" w="1")") + textures +
+             "<module name='show' version='330' source='show.glsl'>" +
+             (initial ? "<uniformSampler name='image' texture='second'/>" : "") +
+             "</module>"
+             // Behind setProgram the sampler has the texture of the node that runs the method.
+             "<sequence name='mark'><setProgram setUniforms='true'><module "
+             "name='show'/></setProgram>"
+             "<setTarget><buffer name='COLOR0' texture='this.material:image'/></setTarget>"
+             "<setState drawBuffer='COLOR0'/><setProgram><module name='this.colour'/></setProgram>"
+             "<drawMesh name='quad'/></sequence>"
+             "<sequence name='frame'><foreach var='o' flag='object'><callMethod name='$o.mark'/>"
+             "</foreach><setTarget/></sequence>"
+             "<node name='scene'><node flags='camera'><method id='draw' value='frame'/></node>"
+             "<node flags='object'><uniformSampler id='image' texture='first'/><module "
+             "id='material' value='show'/><module id='colour' value='red'/><method id='mark' "
+             "value='mark'/></node>"
+             "<node flags='object'><uniformSampler id='image' texture='second'/><module "
+             "id='material' value='show'/><module id='colour' value='green'/><method id='mark' "
+             "value='mark'/></node></node>");
+        CHECK(draw());
+        CHECK(draw());
+        checkNoDiagnostics();
+        const auto at = [&](const char* texture) {
+            const auto pixels = resources->get<Texture>(texture)->download(
+                {.level = 0}, {TransferFormat::rgba, TransferType::u8});
+            return Colour{int(pixels[0]), int(pixels[1]), int(pixels[2])};
+        };
+        CHECK(at("first") == Colour{255, 0, 0});
+        CHECK(at("second") == Colour{0, 255, 0});
+    }
+}
+
 TEST_CASE_FIXTURE(DrawFixture, "autoResize gives a target the size of the screen") {
     loadFrame(R"(<texture2D name="image" internalformat="RGBA8" width="8" height="8" format="RGBA"
                    type="UNSIGNED_BYTE"/>)",
@@ -189,6 +235,10 @@ TEST_CASE_FIXTURE(DrawFixture, "Where a setTarget fails nothing is drawn") {
         {"no such level", "<buffer name='COLOR0' texture='image' level='9'/>", "bad-attachment"},
         {"no such texture", "<buffer name='COLOR0' texture='none'/>", "unknown-resource"},
         {"no such value", "<buffer name='COLOR0' texture='this.none'/>", "missing-texture"},
+        {"no such sampler", "<buffer name='COLOR0' texture='this.paint:none'/>", "missing-texture"},
+        {"a sampler without a texture", "<buffer name='COLOR0' texture='this.show:image'/>",
+         "missing-texture"},
+        {"no such module", "<buffer name='COLOR0' texture='this.none:image'/>", "missing-texture"},
         {"one with layers, one without",
          "<buffer name='COLOR0' texture='image'/><buffer name='COLOR1' texture='layers' "
          "layer='-1'/>",
@@ -205,11 +255,14 @@ TEST_CASE_FIXTURE(DrawFixture, "Where a setTarget fails nothing is drawn") {
                      <texture2D name="depth" internalformat="DEPTH_COMPONENT24" width="8"
                        height="8" format="DEPTH_COMPONENT" type="UNSIGNED_INT"/>
                      <texture2DArray name="layers" internalformat="RGBA8" width="8" height="16"
-                       layers="2" format="RGBA" type="UNSIGNED_BYTE"/>)",
-                  paint("red") + "<setState><depth/></setState><setTarget>" + row.target +
+                       layers="2" format="RGBA" type="UNSIGNED_BYTE"/>
+                     <module name="show" version="330" source="show.glsl"/>)",
+                  "<setProgram><module name='show'/></setProgram>" + paint("red") +
+                      "<setState><depth/></setState><setTarget>" + row.target +
                       "</setTarget><setState clearColor='true'><clear r='0' g='0' b='1' "
                       "a='1'/></setState>" +
-                      paint("green"));
+                      paint("green"),
+                  "<module id='paint' value='red'/><module id='show' value='show'/>");
         draw();
         draw();
         REQUIRE(codes().size() == 1);
