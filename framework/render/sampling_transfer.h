@@ -80,4 +80,11 @@ inline void sendSampling(const GlContext& context, const SamplingParameters& s, 
     }
 }
 
+/// The levels of a texture (not of a rectangle) that are sampled.
+inline void limitLevels(const GlContext& context, unsigned texture, int first, int last) {
+    const auto& gl = context.gl();
+    gl.TextureParameteri(texture, GL_TEXTURE_BASE_LEVEL, std::max(0, first));
+    gl.TextureParameteri(texture, GL_TEXTURE_MAX_LEVEL, std::max(0, last));
+}
+
 } // namespace terrane

@@ -280,10 +280,7 @@ void Texture::applySampling() {
     sendSampling(*context_, s, {.integer = format_->integer(), .rectangle = isRectangle},
                  {name_, gl.TextureParameteri, gl.TextureParameterf, gl.TextureParameterfv,
                   gl.TextureParameterIiv, gl.TextureParameterIuiv});
-    if (!isRectangle) {
-        gl.TextureParameteri(name_, GL_TEXTURE_BASE_LEVEL, std::max(0, s.minLevel));
-        gl.TextureParameteri(name_, GL_TEXTURE_MAX_LEVEL, std::max(0, s.maxLevel));
-    }
+    if (!isRectangle) limitLevels(*context_, name_, s.minLevel, s.maxLevel);
     GLint swizzle[4];
     std::transform(s.swizzle.begin(), s.swizzle.end(), swizzle, [](auto c) { return GLint(c); });
     gl.TextureParameteriv(name_, GL_TEXTURE_SWIZZLE_RGBA, swizzle);

@@ -2,6 +2,8 @@
 // The half of Texture that moves pixels.
 #include "render/texture.h"
 
+#include "render/sampling_transfer.h"
+
 #include <glad/gl.h>
 
 #include <cassert>
@@ -122,7 +124,11 @@ std::vector<std::byte> Texture::download(const TextureRegion& region) const {
 }
 
 void Texture::generateMipmaps() {
-    if (levels() > 1) context_->gl().GenerateTextureMipmap(name_);
+    if (levels() == 1) return;
+    // OpenGL fills only the levels that are sampled, from the first of these.
+    limitLevels(*context_, name_, 0, levels() - 1);
+    context_->gl().GenerateTextureMipmap(name_);
+    limitLevels(*context_, name_, sampling_.minLevel, sampling_.maxLevel);
 }
 
 void Texture::generateMipmaps(int layer) {
