@@ -90,6 +90,11 @@ std::optional<std::string> readFile(const fs::path& path) {
     return std::move(bytes).str();
 }
 
+void makeFolderOf(const fs::path& file) {
+    std::error_code ignored; // whoever writes the file will notice
+    if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
+}
+
 bool writeFile(const fs::path& path, std::string_view bytes) {
     fs::path beside = path;
     beside += "." + std::to_string(::getpid()) + ".tmp";

@@ -12,6 +12,8 @@ namespace terrane {
 /// The bytes of a regular file; empty when it can't be read (missing, a directory, no permission).
 std::optional<std::string> readFile(const std::filesystem::path& path);
 
+/// Makes the folders that a file is to be in, as far as it can.
+void makeFolderOf(const std::filesystem::path& file);
 /// Writes beside the target and renames, so that nobody ever sees half a file. False on failure.
 bool writeFile(const std::filesystem::path& path, std::string_view bytes);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <limits>
 
 namespace terrane {
 
@@ -40,6 +41,13 @@ std::size_t editDistance(std::string_view a, std::string_view b, std::size_t lim
         std::swap(previous, row);
     }
     return std::min(previous[b.size()], tooFar);
+}
+
+// Whether a candidate is a name with something behind it: RGB32F for RGB32.
+bool goesOn(std::string_view name, std::string_view candidate) {
+    return candidate.size() > name.size() &&
+           std::equal(name.begin(), name.end(), candidate.begin(),
+                      [](char a, char b) { return lower(a) == lower(b); });
 }
 
 std::size_t skipBlanksAndPlus(std::string_view text) {
@@ -100,13 +108,17 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& c
     if (name.size() > kLongestName) return {};
     std::size_t best = limit + 1;
     std::string nearest;
+    bool longerNearest = false;
     for (const std::string& candidate : candidates) {
         if (candidate.size() > name.size() + limit || name.size() > candidate.size() + limit)
             continue;
-        const std::size_t distance = editDistance(name, candidate, best - 1);
-        if (distance < best) {
+        const bool longer = !longerNearest && goesOn(name, candidate);
+        const std::size_t distance = editDistance(name, candidate, longer ? limit : best - 1);
+        if (distance > limit) continue;
+        if (distance < best || (longer && distance == best)) {
             best = distance;
             nearest = candidate;
+            longerNearest = goesOn(name, candidate);
         }
         if (best == 0) break;
     }
@@ -133,6 +145,20 @@ std::string inQuotes(std::string_view text) {
 
 std::string asTag(std::string_view name) {
     return "<" + shown(name) + ">";
+}
+
+std::string withArticle(std::string_view noun) {
+    constexpr std::string_view kVowels = "aeiouAEIOU";
+    const bool vowel = !noun.empty() && kVowels.find(noun[0]) != std::string_view::npos;
+    return (vowel ? "an " : "a ") + std::string(noun);
+}
+
+std::optional<ParsedNumber<int>> parseBits(std::string_view text) {
+    const auto wide = parseNumber<long long>(text);
+    if (!wide || wide->value < std::numeric_limits<int>::min() ||
+        wide->value > std::numeric_limits<unsigned>::max())
+        return std::nullopt;
+    return ParsedNumber<int>{static_cast<int>(static_cast<unsigned>(wide->value)), wide->length};
 }
 
 std::optional<ParsedNumber<int>> parseInt(std::string_view text) {

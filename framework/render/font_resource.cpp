@@ -96,6 +96,7 @@ void declareFont(Registry& registry) {
                    "the rest")
         .required()
         .atLeast(0)
+        .clamped()
         .unit("texels")
         .check(check)
         .build(build);

@@ -211,6 +211,18 @@ std::optional<std::size_t> firstMacro(const std::vector<GlslToken>& line,
     return std::nullopt;
 }
 
+// Where a name stands in one of the texts for the first time.
+Place placeOfName(std::string_view name, const std::vector<const GlslText*>& texts) {
+    if (name.empty()) return {};
+    for (const GlslText* text : texts) {
+        for (const GlslToken& token : scanGlsl(text->text())) {
+            if (token.text != name) continue;
+            if (Place place = text->place(token.offset)) return place;
+        }
+    }
+    return {};
+}
+
 Diagnostic diagnosticOf(const GlslMessage& message, std::string code) {
     return {.severity = message.severity,
             .code = std::move(code),
@@ -295,7 +307,8 @@ void reportCompileLog(std::string_view log, bool failed, const GlslText& text,
 }
 
 void reportLinkLog(std::string_view log, bool failed, const Place& program,
-                   const std::string& programName, Diagnostics& diagnostics) {
+                   const std::string& programName, const std::vector<const GlslText*>& texts,
+                   Diagnostics& diagnostics) {
     std::vector<GlslMessage> messages = parseGlslLog(log);
     const bool told = std::any_of(messages.begin(), messages.end(), [](const GlslMessage& m) {
         return m.severity == Severity::error;
@@ -306,7 +319,12 @@ void reportLinkLog(std::string_view log, bool failed, const Place& program,
     for (const GlslMessage& message : messages) {
         Diagnostic d = diagnosticOf(message, "glsl-link");
         if (!failed) d.severity = Severity::warning;
-        d.place = program;
+        d.place = placeOfName(quotedName(message.text), texts);
+        if (d.place && program) {
+            d.chain.push_back("program " + inQuotes(programName) + ", linked at " +
+                              program.toString());
+        }
+        if (!d.place) d.place = program;
         d.message = "program '" + programName + "': " + d.message;
         diagnostics.report(std::move(d));
     }

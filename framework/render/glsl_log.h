@@ -36,8 +36,10 @@ std::optional<std::size_t> offsetOf(const GlslMessage& message, const GlslText& 
 void reportCompileLog(std::string_view log, bool failed, const GlslText& text,
                       std::string_view stage, const Place& module, Diagnostics& diagnostics);
 
-/// Reports a linker's log ("glsl-link") at the program's place.
+/// Reports a linker's log ("glsl-link"): at the first place in the program's texts of the name that
+/// a message quotes, else at the program's.
 void reportLinkLog(std::string_view log, bool failed, const Place& program,
-                   const std::string& programName, Diagnostics& diagnostics);
+                   const std::string& programName, const std::vector<const GlslText*>& texts,
+                   Diagnostics& diagnostics);
 
 } // namespace terrane

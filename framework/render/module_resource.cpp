@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/module_resource.h"
 
+#include "core/text.h"
+
 #include "render/initial_uniform_elements.h"
 #include "render/module.h"
 #include "resource/build_context.h"
@@ -41,6 +43,14 @@ void check(const ModuleElement& d, Diagnostics& diagnostics) {
     if (d.feedback.given && !d.varyings.given)
         diagnostics.error("missing-attribute", d.place,
                           "<module> with feedback needs the attribute 'varyings'");
+    if (d.feedback.given && *d.feedback != "interleaved" && *d.feedback != "separate") {
+        diagnostics.report({.severity = Severity::warning,
+                            .code = "unknown-word",
+                            .place = d.feedback.place,
+                            .message = inQuotes(*d.feedback) + " counts as 'separate'",
+                            .expected = "'interleaved' or 'separate'",
+                            .suggestion = nearestName(*d.feedback, {"interleaved", "separate"})});
+    }
     if (d.varyings.given && !d.feedback.given)
         diagnostics.warning("unused-attribute", d.varyings.place,
                             "varyings have no effect without 'feedback'");

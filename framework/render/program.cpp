@@ -128,7 +128,6 @@ bool Program::collectFeedback(Diagnostics& diagnostics) {
             varyings.push_back(varying.c_str());
     }
     if (!first) return true;
-    capturesFeedback_ = true;
     bindings_.context.gl().TransformFeedbackVaryings(
         name_, static_cast<GLsizei>(varyings.size()), varyings.data(),
         first->mode == FeedbackMode::interleaved ? GL_INTERLEAVED_ATTRIBS : GL_SEPARATE_ATTRIBS);
@@ -148,6 +147,16 @@ bool Program::finish(Diagnostics& diagnostics) {
     return true;
 }
 
+std::vector<const GlslText*> Program::texts() const {
+    std::vector<const GlslText*> result;
+    for (const auto& module : source_.modules) {
+        for (const ShaderObject& shader : module->shaders()) {
+            if (const GlslText* text = module->text(shader.stage())) result.push_back(text);
+        }
+    }
+    return result;
+}
+
 bool Program::readStatus(Diagnostics& diagnostics) {
     const auto& gl = bindings_.context.gl();
     GLint good = 0;
@@ -158,7 +167,7 @@ bool Program::readStatus(Diagnostics& diagnostics) {
     gl.GetProgramInfoLog(name_, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     if (fromBinary_) return good != 0;
-    reportLinkLog(log, good == 0, source_.place, source_.name, diagnostics);
+    reportLinkLog(log, good == 0, source_.place, source_.name, texts(), diagnostics);
     for (const auto& module : source_.modules) {
         for (const ShaderObject& shader : module->shaders())
             gl.DetachShader(name_, shader.name());
@@ -255,8 +264,8 @@ void Program::applyInitialValue(const InitialUniform& initial, Diagnostics& diag
         const std::string given(sampler ? "a texture" : initial.value.type().name);
         diagnostics.warning("unmatched-uniform", initial.place,
                             "the initial value of '" + initial.name + "' is " + given +
-                                ", but in program '" + source_.name + "' it is a " +
-                                std::string(type.name),
+                                ", but in program '" + source_.name + "' it is " +
+                                withArticle(type.name),
                             std::string(type.name));
         return;
     }
@@ -355,7 +364,6 @@ void Program::replaceBy(Program& fresh) {
     std::swap(fromBinary_, fresh.fromBinary_);
     std::swap(restrictsInput_, fresh.restrictsInput_);
     std::swap(inputPrimitives_, fresh.inputPrimitives_);
-    std::swap(capturesFeedback_, fresh.capturesFeedback_);
     for (const auto& module : source_.modules)
         std::replace(module->programs_.begin(), module->programs_.end(), &fresh, this);
     for (const auto& module : fresh.source_.modules)

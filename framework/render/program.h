@@ -147,7 +147,6 @@ public:
     /// Whether OpenGL draws primitives of this mode with it: tessellation takes patches only, and
     /// geometry stages say what they take.
     bool canDraw(PrimitiveMode mode) const;
-    bool capturesFeedback() const { return capturesFeedback_; }
     /// For ProgramSource::binary; nothing when the driver has no such thing.
     std::optional<ProgramBinary> binary() const;
 
@@ -213,6 +212,7 @@ private:
     bool loadBinary(Diagnostics& diagnostics);
     bool attach(Diagnostics& diagnostics);
     bool collectFeedback(Diagnostics& diagnostics);
+    std::vector<const GlslText*> texts() const;
     bool readStatus(Diagnostics& diagnostics);
     void readInput();
     void readInterface();
@@ -241,7 +241,6 @@ private:
     ProgramBindings& bindings_;
     ProgramSource source_;
     unsigned name_ = 0;
-    bool capturesFeedback_ = false;
     unsigned inputPrimitives_ = 0; ///< GL_TRIANGLES and so on, of the first stage that cares
     bool restrictsInput_ = false;
     bool fromBinary_ = false;

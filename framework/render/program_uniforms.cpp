@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values of a program's uniforms: setting, reading, binding before a draw.
 #include "render/program.h"
+
+#include "core/text.h"
 #include "render/state_tracker.h"
 #include "render/uniform_transfer.h"
 #include "resource/entry.h"
@@ -191,8 +193,8 @@ void Program::reportMismatch(Slot& slot, std::string_view given) {
     const std::string type(slot.uniform.type->name);
     bindings_.context.diagnostics().warning("uniform-type", source_.place,
                                             "uniform '" + slot.name + "' of program '" +
-                                                source_.name + "' is a " + type +
-                                                " and can't take a " + std::string(given),
+                                                source_.name + "' is " + withArticle(type) +
+                                                " and can't take " + withArticle(given),
                                             type);
 }
 

@@ -48,6 +48,8 @@ struct AttributeDeclaration {
     double maximum = std::numeric_limits<double>::infinity();
     bool minimumExcluded = false;
     bool infinite = false;              ///< numbers: infinity is one
+    bool clamped = false;               ///< numbers: what is out of range is but a warning
+    bool bits = false;                  ///< integers: also what only an unsigned one can hold
     std::vector<std::string> words;     ///< of enumerations
     std::vector<std::string> aliases;   ///< other accepted spellings of the attribute's name
     bool trueUnlessFalse = false;       ///< booleans: any word but "false" is true
@@ -156,6 +158,11 @@ public:
     Derived& atMost(double value) { return last().maximum = value, self(); }
     /// Infinity is a value, too; without this it is out of range.
     Derived& orInfinite() { return last().infinite = true, self(); }
+    /// What is out of range counts as the end of the range that is nearest, with a warning: OpenGL,
+    /// or the original, did the same without a word.
+    Derived& clamped() { return last().clamped = true, self(); }
+    /// An int whose bits count: 4294967295 is -1.
+    Derived& bits() { return last().bits = true, self(); }
     Derived& alias(std::string name) {
         last().aliases.push_back(std::move(name));
         return self();

@@ -312,12 +312,13 @@ void ResourceManager::reportCycle(const ResourceEntry& entry, const Place& place
 
 void ResourceManager::reportMistyped(const RefBase& ref, const ResourceEntry& entry,
                                      std::type_index interface) {
-    diagnostics_.report({.code = "mistyped-reference",
-                         .place = ref.place,
-                         .message = inQuotes(ref.name) + " is a " + entry.declaration->tag,
-                         .expected = registry_.describeInterface(interface),
-                         .suggestion = suggestEntry(ref.name, interface),
-                         .chain = chain()});
+    diagnostics_.report(
+        {.code = "mistyped-reference",
+         .place = ref.place,
+         .message = inQuotes(ref.name) + " is " + withArticle(entry.declaration->tag),
+         .expected = registry_.describeInterface(interface),
+         .suggestion = suggestEntry(ref.name, interface),
+         .chain = chain()});
 }
 
 // An entry, or else a file.

@@ -103,6 +103,11 @@ private:
             diagnostics_.warning("not-built-yet", xml.namePlace,
                                  "attribute '" + a.name + "' has no effect yet");
         }
+        // The original took it; but nothing finds what has no name.
+        if (a.kind == ValueKind::text && a.required && xml.value.empty()) {
+            diagnostics_.warning("empty-value", xml.valuePlace, "'" + a.name + "' is empty",
+                                 a.summary);
+        }
         if (a.kind == ValueKind::file) files_.push_back({xml.value, xml.namePlace, xml.valuePlace});
         return !a.read ||
                a.read({xml.value, xml.namePlace, xml.valuePlace}, description, diagnostics_);

@@ -65,7 +65,10 @@ ValueForm integerForm(const AttributeDeclaration& a) {
     ValueForm form = number(a, Base::integer);
     using Limits = std::numeric_limits<int>;
     if (!form.minimum) form.minimum = {std::to_string(Limits::min())};
-    if (!form.maximum) form.maximum = {std::to_string(Limits::max())};
+    if (!form.maximum) {
+        form.maximum = {a.bits ? std::to_string(std::numeric_limits<unsigned>::max())
+                               : std::to_string(Limits::max())};
+    }
     return form;
 }
 

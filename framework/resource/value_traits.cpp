@@ -52,11 +52,26 @@ void checkRest(std::string_view piece, std::size_t length, const Place& place,
                         "a number alone");
 }
 
-bool inRange(double value, std::string_view piece, const Place& place,
-             const AttributeDeclaration& a, Diagnostics& diagnostics) {
+bool isInRange(double value, const AttributeDeclaration& a) {
     const bool low = a.minimumExcluded ? value <= a.minimum : value < a.minimum;
     const bool finite = std::isfinite(value) || (a.infinite && !std::isnan(value));
-    if (!low && !(value > a.maximum) && finite) return true;
+    return !low && !(value > a.maximum) && finite;
+}
+
+// Puts a value into the range of its attribute, if that is all that is wrong with it.
+template <class T>
+bool fit(T& value, std::string_view piece, const Place& place, const AttributeDeclaration& a,
+         Diagnostics& diagnostics) {
+    if (isInRange(static_cast<double>(value), a)) return true;
+    const double nearest = std::clamp(static_cast<double>(value), a.minimum, a.maximum);
+    if (a.clamped && isInRange(nearest, a)) {
+        value = static_cast<T>(nearest);
+        diagnostics.warning("out-of-range", place,
+                            "'" + a.name + "' of " + inQuotes(piece) + " counts as " +
+                                fmt::format("{}", value),
+                            rangeOf(a));
+        return true;
+    }
     diagnostics.error("out-of-range", place,
                       "'" + a.name + "' of " + inQuotes(piece) + " is out of range", rangeOf(a));
     return false;
@@ -74,7 +89,7 @@ bool readPiece(std::string_view piece, const Place& place, const AttributeText& 
     checkRest(piece, number->length, place, a, diagnostics);
     value = static_cast<T>(number->value);
     // As it is stored: what is too large for it is infinite.
-    return inRange(static_cast<double>(value), piece, place, a, diagnostics);
+    return fit(value, piece, place, a, diagnostics);
 }
 
 template <class T, class Parse>
@@ -125,8 +140,8 @@ bool readBool(const AttributeText& text, const AttributeDeclaration& a, bool& va
 
 bool readInt(const AttributeText& text, const AttributeDeclaration& a, int& value,
              Diagnostics& diagnostics) {
-    return readPiece(text.text, text.valuePlace, text, a, "an integer", parseInt, value,
-                     diagnostics);
+    return readPiece(text.text, text.valuePlace, text, a, "an integer",
+                     a.bits ? parseBits : parseInt, value, diagnostics);
 }
 
 bool readReal(const AttributeText& text, const AttributeDeclaration& a, double& value,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/bind_context.h"
 
+#include "core/text.h"
 #include "scene/scene_manager.h"
 
 #include <algorithm>
@@ -32,19 +33,37 @@ SceneNode* BindContext::nodeOf(const Attr<Target>& name) const {
     if (name->node.empty()) return nullptr;
     SceneNode* const node = findNode(name->node);
     if (!node) {
-        diagnostics().warning("unknown-target", name.place,
-                              "no node matches the target '" + name->node + "'; '" + name->name +
-                                  "' is taken as the name of a resource",
-                              "'this', '$variable' of a loop around it, or a flag of a node");
+        diagnostics().report(
+            {.severity = Severity::warning,
+             .code = "unknown-target",
+             .place = name.place,
+             .message = "no node matches the target '" + name->node + "'; '" + name->name +
+                        "' is taken as the name of a resource",
+             .expected = "'this', '$variable' of a loop around it, or a flag of a node",
+             .suggestion = suggestTarget(*name)});
     }
     return node;
 }
 
-void BindContext::reportMissing(const Attr<Target>& name, const SceneNode& node,
-                                const std::string& what, const std::string& expected) const {
+std::string BindContext::suggestTarget(const Target& name) const {
+    std::vector<std::string> targets = scene_.flags();
+    targets.emplace_back("this");
+    for (const auto& [variable, node] : variables_)
+        targets.push_back("$" + variable);
+    const std::string nearest = nearestName(name.node, targets);
+    return nearest.empty() ? nearest : nearest + "." + name.name;
+}
+
+void BindContext::reportMissingOf(const Attr<Target>& name, const SceneNode& node,
+                                  const std::string& what, const std::vector<std::string>& has,
+                                  const std::string& expected) const {
     const std::string which = node.name.empty() ? "the node" : "node '" + node.name + "'";
-    diagnostics().error("missing-" + what, name.place,
-                        which + " has no " + what + " '" + name->name + "'", expected);
+    const std::string nearest = nearestName(name->name, has);
+    diagnostics().report({.code = "missing-" + what,
+                          .place = name.place,
+                          .message = which + " has no " + what + " '" + name->name + "'",
+                          .expected = expected,
+                          .suggestion = nearest.empty() ? nearest : name->node + "." + nearest});
 }
 
 void BindContext::setVariable(const std::string& name, SceneNode* node) {

@@ -49,13 +49,22 @@ public:
         const auto field = node->fields.find(name->name);
         const bool told = field != node->fields.end() && !field->second.get();
         if (!found && !told)
-            reportMissing(name, *node, "field",
+            reportMissing(name, *node, "field", node->fields,
                           resources().registry().describeInterface(typeid(T)));
         return found;
     }
 
+    /// Tells that a node has no module, mesh, method... of a name, and the nearest that it has.
+    template <class Map>
     void reportMissing(const Attr<Target>& name, const SceneNode& node, const std::string& what,
-                       const std::string& expected = {}) const;
+                       const Map& has, const std::string& expected = {}) const {
+        std::vector<std::string> ids;
+        for (const auto& entry : has)
+            ids.push_back(entry.first);
+        reportMissingOf(name, node, what, ids, expected);
+    }
+    /// `flag.name` with the nearest flag that a node has; empty when none is near.
+    std::string suggestTarget(const Target& name) const;
 
     /// For the duration of a loop's body, and, as in the original, after the loop.
     void setVariable(const std::string& name, SceneNode* node);
@@ -85,6 +94,9 @@ public:
     };
 
 private:
+    void reportMissingOf(const Attr<Target>& name, const SceneNode& node, const std::string& what,
+                         const std::vector<std::string>& has, const std::string& expected) const;
+
     static constexpr std::size_t kDeepestCall = 200;
     static constexpr int kMostTasks = 100000;
 

@@ -143,14 +143,19 @@ public:
     std::unique_ptr<BoundTask> bind(BindContext& context) const override {
         SceneNode* const node = name_->node.empty() ? nullptr : context.findNode(name_->node);
         if (!node) {
-            context.diagnostics().error("unknown-target", name_.place,
-                                        "no node matches the target of '" + name_->name + "'",
-                                        "'this.method', '$variable.method' or 'flag.method'");
+            context.diagnostics().report(
+                {.code = "unknown-target",
+                 .place = name_.place,
+                 .message = name_->node.empty()
+                                ? "'" + name_->name + "' names no node"
+                                : "no node matches the target '" + name_->node + "'",
+                 .expected = "'this.method', '$variable.method' or 'flag.method'",
+                 .suggestion = context.suggestTarget(*name_)});
             return nullptr;
         }
         const auto method = node->methods.find(name_->name);
         if (method == node->methods.end()) {
-            context.reportMissing(name_, *node, "method");
+            context.reportMissing(name_, *node, "method", node->methods);
             return nullptr;
         }
         if (!method->second.task) return nullptr; // told at the node

@@ -81,7 +81,7 @@ Mesh* findMesh(const Attr<Target>& name, BindContext& context) {
     if (!node) return context.resources().get<Mesh>(name->name + ".mesh", name.place).get();
     const auto mesh = node->meshes.find(name->name);
     if (mesh != node->meshes.end()) return mesh->second.get();
-    context.reportMissing(name, *node, "mesh");
+    context.reportMissing(name, *node, "mesh", node->meshes);
     return nullptr;
 }
 
@@ -93,6 +93,7 @@ void declareDrawMesh(Registry& registry) {
         .attribute("count", &D::count, "number of instances")
         .atLeast(0)
         .atMost(1 << 20)
+        .clamped()
         .build([](const D& d, BuildContext&) { return std::make_shared<DrawMesh>(d); });
 }
 

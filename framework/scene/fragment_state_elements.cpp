@@ -68,12 +68,14 @@ struct StencilElement : StateElement {
             .attribute("ffunction", &D::ffunction, "front: what passes", kCompareWords)
             .attribute("fref", &D::fref, "front: reference value")
             .attribute("fmask", &D::fmask, "front: bits that are compared")
+            .bits()
             .attribute("ffail", &D::ffail, "front: when the stencil test fails", operation)
             .attribute("fdpfail", &D::fdpfail, "front: when the depth test fails", operation)
             .attribute("fdppass", &D::fdppass, "front: when both pass", operation)
             .attribute("bfunction", &D::bfunction, "back: what passes", kCompareWords)
             .attribute("bref", &D::bref, "back: reference value")
             .attribute("bmask", &D::bmask, "back: bits that are compared")
+            .bits()
             .attribute("bfail", &D::bfail, "back: when the stencil test fails", operation)
             .attribute("bdpfail", &D::bdpfail, "back: when the depth test fails", operation)
             .attribute("bdppass", &D::bdppass, "back: when both pass", operation)
@@ -128,9 +130,9 @@ struct BlendElement : StateElement {
         together(d, d.eq, "eq", d.dst, "dst", diagnostics);
         together(d, d.alphaeq, "alphaeq", d.alphasrc, "alphasrc", diagnostics);
         together(d, d.alphaeq, "alphaeq", d.alphadst, "alphadst", diagnostics);
-        together(d, d.r, "r", d.g, "g", diagnostics);
-        together(d, d.r, "r", d.b, "b", diagnostics);
-        together(d, d.r, "r", d.a, "a", diagnostics);
+        alsoGiven(d, d.r, "r", d.g, "g", diagnostics);
+        alsoGiven(d, d.r, "r", d.b, "b", diagnostics);
+        alsoGiven(d, d.r, "r", d.a, "a", diagnostics);
     }
 
     static const ElementDeclaration& declare(Registry& registry) {
@@ -235,7 +237,9 @@ struct WriteElement : StateElement {
             .attribute("a", &D::a, "alpha")
             .attribute("d", &D::d, "depth")
             .attribute("fs", &D::fs, "stencil bits of front faces")
+            .bits()
             .attribute("bs", &D::bs, "stencil bits of back faces")
+            .bits()
             .check(check)
             .declaration();
     }
@@ -262,7 +266,7 @@ struct MultisamplingElement : StateElement {
     }
     static void check(const MultisamplingElement& d, Diagnostics& diagnostics) {
         together(d, d.alphaToCoverage, "alphaToCoverage", d.alphaToOne, "alphaToOne", diagnostics);
-        together(d, d.shading, "shading", d.min, "min", diagnostics);
+        alsoGiven(d, d.shading, "shading", d.min, "min", diagnostics);
     }
     static const ElementDeclaration& declare(Registry& registry) {
         using D = MultisamplingElement;
@@ -273,11 +277,14 @@ struct MultisamplingElement : StateElement {
             .attribute("coverage", &D::coverage, "share of samples kept; negative: the complement")
             .atLeast(-1)
             .atMost(1)
+            .clamped()
             .attribute("mask", &D::mask, "bits of the samples kept")
+            .bits()
             .attribute("shading", &D::shading, "shade samples, not pixels")
             .attribute("min", &D::min, "least share of samples shaded")
             .atLeast(0)
             .atMost(1)
+            .clamped()
             .check(check)
             .declaration();
     }

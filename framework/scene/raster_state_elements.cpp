@@ -38,23 +38,31 @@ struct DepthRangeElement : StateElement {
             .attribute("near", &D::near, "depth of the near plane")
             .atLeast(0)
             .atMost(1)
+            .clamped()
             .attribute("far", &D::far, "depth of the far plane")
             .atLeast(0)
             .atMost(1)
+            .clamped()
             .declaration();
     }
 };
 
 struct ClipDistancesElement : StateElement {
+    static constexpr int kAll = 63;
     Attr<int> value = 0;
-    void apply(PipelineState& s) const override { s.clipDistances = *value; }
+    void apply(PipelineState& s) const override { s.clipDistances = *value & kAll; }
+    static void check(const ClipDistancesElement& d, Diagnostics& diagnostics) {
+        if ((*d.value & ~kAll) == 0) return;
+        diagnostics.warning("out-of-range", d.value.place, "only bits 0 to 5 count",
+                            "0 to " + std::to_string(kAll));
+    }
     static const ElementDeclaration& declare(Registry& registry) {
         using D = ClipDistancesElement;
         return registry.element<D>("clipDistances", "Which gl_ClipDistance count.")
             .attribute("value", &D::value, "bit i enables gl_ClipDistance[i]")
             .required()
-            .atLeast(0)
-            .atMost(63)
+            .bits()
+            .check(check)
             .declaration();
     }
 };
@@ -79,6 +87,7 @@ struct ClearElement : StateElement {
             .attribute("depth", &D::depth, "depth")
             .atLeast(0)
             .atMost(1)
+            .clamped()
             .declaration();
     }
 };

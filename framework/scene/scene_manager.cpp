@@ -89,6 +89,15 @@ const std::vector<SceneNode*>& SceneManager::nodes(const std::string& flag) {
     return nodesByFlag_[flag];
 }
 
+std::vector<std::string> SceneManager::flags() {
+    nodes(*cameraFlag_); // makes the index
+    std::vector<std::string> result;
+    for (const auto& [flag, nodes] : nodesByFlag_) {
+        if (!nodes.empty()) result.push_back(flag);
+    }
+    return result;
+}
+
 void SceneManager::update(double time, double elapsed) {
     time_ = time;
     elapsed_ = elapsed;

@@ -77,6 +77,9 @@ public:
     /// Nodes with a flag (their name is one), in document order, depth first.
     const std::vector<SceneNode*>& nodes(const std::string& flag);
 
+    /// All flags that nodes have, for messages.
+    std::vector<std::string> flags();
+
     /// Computes all frames, bounds and visibilities. Times in microseconds, as shaders see them.
     void update(double time, double elapsed);
     double time() const { return time_; }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/text.h"
 #include "render/initial_uniform_elements.h"
 #include "render/mesh.h"
 #include "render/module.h"
@@ -9,6 +10,7 @@
 #include "scene/scene_node.h"
 #include "scene/scene_task.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace terrane {
@@ -58,6 +60,15 @@ glm::dvec3 axis(const std::string& tag) {
 }
 
 void checkValue(const ValueDescription& d, Diagnostics& diagnostics) {
+    const std::vector<std::string> types{"FLOAT", "DOUBLE", "INT", "UINT", "BOOL"};
+    if (std::find(types.begin(), types.end(), *d.type) == types.end()) {
+        diagnostics.report({.severity = Severity::warning,
+                            .code = "unknown-word",
+                            .place = d.type.place,
+                            .message = inQuotes(*d.type) + " counts as 'DOUBLE'",
+                            .expected = listOfNames(types),
+                            .suggestion = nearestName(*d.type, types)});
+    }
     if (d.x.given || d.texture.given()) return;
     diagnostics.error("missing-attribute", d.place, "<" + d.tag + "> needs a value",
                       "'x' (and 'y', 'z', 'w'), or 'texture'");
@@ -83,6 +94,20 @@ NodeValue valueOf(const ValueDescription& d) {
                  : type == "BOOL" ? NodeValue::Type::booleans
                                   : NodeValue::Type::doubles;
     return value;
+}
+
+// Names of nodes in lists keep their blanks, as the original had it.
+void checkFlags(const NodeDescription& d, Diagnostics& diagnostics) {
+    detail::ValueWalker walker(d.flags.place);
+    for (const std::string& flag : *d.flags) {
+        if (flag.empty() || flag.front() == ' ' || flag.back() == ' ') {
+            diagnostics.warning("blank-in-name", walker.place(),
+                                flag.empty() ? "an empty flag"
+                                             : "the blanks of " + inQuotes(flag) + " belong to it",
+                                "flags with nothing but a comma between them");
+        }
+        walker.advance(flag.size() + 1);
+    }
 }
 
 // Adds what a child element says, in document order: a matrix multiplies what came before, bounds
@@ -191,7 +216,7 @@ const ElementDeclaration& declareValue(Registry& registry) {
         .orInfinite()
         .attribute("w", &D::w, "fourth component")
         .orInfinite()
-        .attribute("type", &D::type, "BOOL, INT, UINT or FLOAT; any other word means double")
+        .attribute("type", &D::type, "BOOL, INT, UINT, FLOAT or DOUBLE, as does any other word")
         .attribute("texture", &D::texture, "texture of a sampler value")
         .ignored("name", "ignored")
         .ignored("sampler", "ignored")
@@ -256,6 +281,7 @@ void declareSceneNode(Registry& registry) {
     node.attribute("flags", &D::flags, "words by which methods find the node")
         .attribute("value", &D::value, "in a nested node: the node to use instead of this one")
         .standsForAll("value")
+        .check(checkFlags)
         .child(declareTranslation(registry))
         .child(declareRotation(registry, "rotatex"))
         .child(declareRotation(registry, "rotatey"))

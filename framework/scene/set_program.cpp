@@ -126,7 +126,7 @@ Ref<Module> findModule(const Attr<Target>& name, BindContext& context) {
     if (!node) return context.resources().get<Module>(name->name, name.place);
     const auto module = node->modules.find(name->name);
     if (module != node->modules.end()) return module->second;
-    context.reportMissing(name, *node, "module");
+    context.reportMissing(name, *node, "module", node->modules);
     return {};
 }
 

@@ -198,12 +198,12 @@ bool findTexture(BoundBuffer& buffer, BindContext& context) {
         const bool sampler =
             value != node->values.end() && value->second.type == NodeValue::Type::sampler;
         if (sampler) buffer.texture = value->second.texture; // if empty, told at the node
-        if (!sampler) context.reportMissing(name, *node, "texture");
+        if (!sampler) context.reportMissing(name, *node, "texture", node->values);
         return static_cast<bool>(buffer.texture);
     }
     const auto module = node->modules.find(name->name.substr(0, colon));
     if (module == node->modules.end()) {
-        context.reportMissing(name, *node, "texture");
+        context.reportMissing(name, *node, "texture", node->modules);
         return false;
     }
     if (!module->second) return false; // told at the node

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/set_transforms.h"
 
+#include "core/text.h"
 #include "render/program.h"
 #include "resource/registry.h"
 #include "scene/bind_context.h"
@@ -63,9 +64,24 @@ private:
         return scene_.drawState().program;
     }
 
+    // A name that the program does not have is none of its business; one of another type is an
+    // oversight.
     template <class T>
-    static void find(Uniform<T>& uniform, const Attr<std::string>& name, Program& program) {
+    void find(Uniform<T>& uniform, const Attr<std::string>& name, Program& program) const {
         uniform = name.given ? program.uniform<T>(*name) : Uniform<T>();
+        if (!uniform.active()) return;
+        using Traits = UniformTraits<T>;
+        const UniformType& type = uniform.type();
+        const bool real = type.kind == UniformKind::float32 || type.kind == UniformKind::float64;
+        if (real && type.columns == Traits::columns && type.rows == Traits::rows) return;
+        const UniformType* const wanted =
+            findUniformType(UniformKind::float32, Traits::columns, Traits::rows);
+        scene_.resources().diagnostics().warning("uniform-type", name.place,
+                                                 "uniform '" + *name + "' of program '" +
+                                                     program.name() + "' is " +
+                                                     withArticle(type.name),
+                                                 std::string(wanted->name));
+        uniform = {};
     }
 
     void resolve(Program& program) {

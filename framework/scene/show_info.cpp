@@ -104,9 +104,11 @@ void declareShowInfo(Registry& registry) {
     info.attribute("maxLines", static_cast<Attr<int> D::*>(&D::maxLines),
                    "lines to leave room for above the bottom")
         .atLeast(0)
+        .clamped()
         .attribute("fontColor", &D::fontColor, "red, green and blue, 0 to 255")
         .atLeast(0)
         .atMost(255)
+        .clamped()
         .check(check)
         .build([](const D& d, BuildContext&) { return std::make_shared<ShowInfo>(d); });
 }

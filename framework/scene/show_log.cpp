@@ -68,6 +68,7 @@ void declareShowLog(Registry& registry) {
     log.attribute("maxLines", static_cast<Attr<int> D::*>(&D::maxLines),
                   "lines to show, the newest ones")
         .atLeast(0)
+        .clamped()
         .build([](const D& d, BuildContext&) { return std::make_shared<ShowLog>(d); });
 }
 

@@ -32,4 +32,15 @@ void together(const ElementDescription& d, const Attr<A>& first, const char* fir
                       "<" + d.tag + "> with '" + firstName + "' needs '" + secondName + "'");
 }
 
+/// The same for a number that the original did not insist on; it counts as 0.
+template <class A, class B>
+void alsoGiven(const ElementDescription& d, const Attr<A>& first, const char* firstName,
+               const Attr<B>& second, const char* secondName, Diagnostics& diagnostics) {
+    if (!first.given || second.given) return;
+    diagnostics.warning("missing-attribute", d.place,
+                        "<" + d.tag + "> with '" + firstName + "' has no '" + secondName +
+                            "', which counts as 0",
+                        "both");
+}
+
 } // namespace terrane

@@ -36,8 +36,9 @@ void declareText(Builder& builder) {
         .unit("pixels")
         .attribute("font", of(&T::font), "the letters")
         .attribute("fontSize", of(&T::fontSize), "height of a line; by default that of the font")
-        .above(0)
+        .atLeast(1)
         .atMost(4096)
+        .clamped()
         .unit("pixels")
         .attribute("fontProgram", of(&T::fontProgram),
                    "program that draws them, with a sampler 'font'");

@@ -54,16 +54,20 @@ void declareScheduler(Registry& registry) {
         .attribute("nthreads", &D::nthreads, "worker threads beside the main one")
         .atLeast(0)
         .atMost(kMaxThreads)
+        .clamped()
         .attribute("fps", &D::fps, "frame rate to keep to; 0: as fast as possible")
         .unit("1/s")
         .atLeast(0)
         .atMost(1e6)
+        .clamped()
         .attribute("prefetchRate", &D::prefetchRate,
                    "tasks of future frames that the main thread runs in each frame, at least")
         .atLeast(0)
+        .clamped()
         .attribute("prefetchQueue", &D::prefetchQueue,
                    "tasks of future frames that may wait; needed with fps or prefetchRate")
         .atLeast(0)
+        .clamped()
         .check(checkQueue)
         .build(build);
 }

@@ -121,8 +121,13 @@ TEST_CASE_FIXTURE(Terrane, "play writes what it is told to") {
     const auto a = readFile(*this / "a.png"), b = readFile(*this / "b.png");
     REQUIRE(a);
     CHECK(a == b); // bit for bit
-    CHECK(run(play + "--screenshot %/nowhere/a.png").status == 1);
-    contains(run(play + "--screenshot %/nowhere/a.png").err, "can't write");
+    CHECK(
+        run(play + "--frames 1 --screenshot %/new/folder/a.png --metrics %/other/m.json").status ==
+        0); // folders are made
+    CHECK(std::filesystem::exists(*this / "new/folder/a.png"));
+    CHECK(std::filesystem::exists(*this / "other/m.json"));
+    CHECK(run(play + "--screenshot %/a.png/a.png").status == 1);
+    contains(run(play + "--screenshot %/a.png/a.png").err, "can't write");
 }
 
 TEST_CASE_FIXTURE(Terrane, "a script that fails makes the run fail") {
@@ -201,6 +206,10 @@ TEST_CASE_FIXTURE(Terrane, "a new archive works at once") {
     CHECK(run("check %/mine").status == 0);
     CHECK(run("play %/mine --headless --size 64x48 --frames 1").status == 0);
     CHECK(run("new %/mine").status == 1); // nothing is overwritten
+    const Result spaced = run("new '%/it'\\''s mine'");
+    CHECK(spaced.status == 0);
+    // The command can be copied.
+    contains(spaced.out, "terrane play '" + (*this / "it'\\''s mine").string() + "' --headless");
 }
 
 TEST_CASE_FIXTURE(Terrane, "schema writes each format, on request into files") {

@@ -4,6 +4,7 @@
 #include <clocale>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 
 using namespace terrane;
 
@@ -50,6 +51,28 @@ TEST_CASE("the nearest name is a likely misspelling or none") {
         CHECK(nearestName(row.given, names) == row.nearest);
     }
     CHECK(nearestName("width", {}).empty());
+    // What goes on where the name ends is nearer than what differs in it.
+    const std::vector<std::string> formats{"RGB12", "RGB16", "RGB32F", "RGB32I", "RG32F"};
+    CHECK(nearestName("RGB32", formats) == "RGB32F");
+    CHECK(nearestName("rgb32", formats) == "RGB32F");
+    CHECK(nearestName("RGB3", {"RGB5", "RGB32"}) == "RGB32");
+    CHECK(nearestName("RGB17", formats) == "RGB12");
+    CHECK(nearestName("RGB", {"RGA", "RGBABCD"}) == "RGA");
+}
+
+TEST_CASE("a noun has its article") {
+    CHECK(withArticle("program") == "a program");
+    CHECK(withArticle("elevationProducer") == "an elevationProducer");
+    CHECK(withArticle("") == "a ");
+}
+
+TEST_CASE("an integer whose bits count may need them all") {
+    CHECK(parseBits("4294967295x")->value == -1);
+    CHECK(parseBits("4294967295x")->length == 10);
+    CHECK(parseBits("-2147483648")->value == std::numeric_limits<int>::min());
+    CHECK(parseBits("+7")->value == 7);
+    for (const char* text : {"4294967296", "-2147483649", "x", "", "99999999999999999999"})
+        CHECK_FALSE(parseBits(text));
 }
 
 TEST_CASE("names are listed as in a sentence") {

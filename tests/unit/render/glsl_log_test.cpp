@@ -132,10 +132,34 @@ TEST_CASE("A driver that fails without a word is reported nevertheless") {
     CHECK(diagnostics.errors() == 1);
     CHECK(diagnostics.warnings() == 1);
     diagnostics.clear();
-    reportLinkLog("", true, {archive, 0}, "a;b;", diagnostics);
+    reportLinkLog("", true, {archive, 0}, "a;b;", {}, diagnostics);
     REQUIRE(diagnostics.errors() == 1);
     CHECK(diagnostics.all()[0].code == "glsl-link");
     CHECK(diagnostics.all()[0].message.find("a;b;") != std::string::npos);
+}
+
+TEST_CASE("A linker's message is told where the name that it quotes stands") {
+    const auto archive = std::make_shared<SourceFile>("archive.xml", "<program>");
+    const GlslText first = textOf("// light\nvoid main() {}\n");
+    const GlslText second = textOf("void main() { light(); }\n");
+    struct Row {
+        const char* log;
+        const char* place;
+        std::size_t links; // of the chain
+    };
+    const Row rows[] = {{"error: unresolved reference to function `light'\n", "s.glsl:1:15", 1},
+                        {"error: unresolved reference to function `shade'\n", "archive.xml:1:1", 0},
+                        {"error: the driver is in a bad mood\n", "archive.xml:1:1", 0}};
+    for (const Row& row : rows) {
+        CAPTURE(row.log);
+        Diagnostics diagnostics;
+        reportLinkLog(row.log, true, {archive, 0}, "a;b;", {&first, &second}, diagnostics);
+        REQUIRE(diagnostics.errors() == 1);
+        const Diagnostic d = diagnostics.all()[0];
+        CHECK(d.place.toString() == row.place);
+        CHECK(d.chain.size() == row.links);
+        CHECK(d.message.starts_with("program 'a;b;': "));
+    }
 }
 
 TEST_CASE("What a driver says about good code is no error") {

@@ -329,7 +329,6 @@ TEST_CASE_FIXTURE(ModuleFixture, "A module says what is captured") {
                               std::string(mode) + "' varyings='twice'/>",
                           "m;");
         REQUIRE(p);
-        CHECK(p->capturesFeedback());
         const auto captured = std::make_shared<Buffer>(*context);
         captured->allocate(24);
         TransformFeedback feedback(*context);

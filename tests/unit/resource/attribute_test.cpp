@@ -75,6 +75,11 @@ TEST_CASE("a wrong attribute is told where it stands") {
         {"infinity where there is an end", R"(sugar="^inf")", {"out-of-range"}, false},
         {"no number where there is an end", R"(weight="^nan")", {"out-of-range"}, false},
         {"infinity where there is no end", R"(angle="^-inf")", {"out-of-range"}, false},
+        {"too little of what is clamped", R"(shine="^-0.5")", {"out-of-range"}, true},
+        {"too much of what is clamped", R"(shine="^inf")", {"out-of-range"}, true},
+        {"no number where is clamped", R"(shine="^nan")", {"out-of-range"}, false},
+        {"bits that only an unsigned number has", R"(marks="4294967295")", {}, true},
+        {"more bits than there are", R"(marks="^4294967296")", {"wrong-kind"}, false},
         {"more than a number can be", R"(angle="^1e999")", {"wrong-kind"}, false},
 
         {"an unknown word", R"(colour="^PINK")", {"unknown-word"}, false},
@@ -231,6 +236,40 @@ TEST_CASE("a value that can't be read leaves the default") {
     REQUIRE(apple.description);
     CHECK(apple.description->seeds == 5);
     CHECK(*apple.description->colour == Colour::green);
+}
+
+TEST_CASE("a name that has to be there, but is empty, is told") {
+    ArchiveWorld world;
+    const MarkedText marked(R"(<archive><pear name="a" kind="^"/></archive>)");
+    world.add(marked.text);
+    world.manager->loadAll();
+    CHECK(problems(world.diagnostics) == expected(marked, {"empty-value"}));
+    CHECK(world.diagnostics.warnings() == 1);
+}
+
+TEST_CASE("what is clamped is told, and counts as the nearest end") {
+    struct Row {
+        const char* given;
+        float value;
+        const char* told;
+    };
+    const Row rows[] = {{"-0.5", 0, "'shine' of '-0.5' counts as 0"},
+                        {"1.5", 1, "'shine' of '1.5' counts as 1"},
+                        {"-inf", 0, "'shine' of '-inf' counts as 0"}};
+    for (const Row& row : rows) {
+        CAPTURE(row.given);
+        const AppleReading apple("shine=\"" + std::string(row.given) + "\"");
+        REQUIRE(apple.description);
+        CHECK(*apple.description->shine == row.value);
+        const Diagnostic* const d = apple.world.find("out-of-range");
+        REQUIRE(d);
+        CHECK(d->severity == Severity::warning);
+        CHECK(d->message == row.told);
+        CHECK(d->expected == "0 to 1");
+    }
+    const AppleReading bits("marks=\"4294967294\"");
+    REQUIRE(bits.description);
+    CHECK(*bits.description->marks == -2);
 }
 
 TEST_CASE("a wrong name gets the nearest right one") {

@@ -102,7 +102,7 @@ TEST_CASE("all problems of an archive are told in one run, in the same order eac
     ^<aple name="a"/>
     <apple name="b" friend="^s" file="^gone.png"/>
     <apple name="c" file="^gone.png"/>
-    <pear name="d" kind="" next="^d"/>
+    <pear name="d" kind="k" next="^d"/>
     <apple name="d2" colour="^PINK" friends="d,^e"/>
 </archive>
 )");

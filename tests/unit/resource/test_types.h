@@ -71,6 +71,8 @@ struct AppleDescription : ElementDescription {
     Attr<double> weight = 0.5; // more than 0
     Attr<float> sugar = 0.1f;  // at most 1
     Attr<float> angle = 0;     // any
+    Attr<float> shine = 0.5F;  // clamped to 0 to 1
+    Attr<int> marks = 0;       // bits
     Attr<std::string> label = "plain";
     Attr<std::string> smell;
     Attr<Colour> colour = Colour::green;
