@@ -167,6 +167,7 @@ void runInteractively(Player& player, PlayerWindow* window, const RunStreams& st
 }
 
 bool write(const fs::path& path, const std::string& text, Messages& err) {
+    makeFolderOf(path);
     if (path.empty() || writeFile(path, text)) return true;
     err.tell("can't write " + shownPath(path) + "\n");
     return false;
@@ -174,6 +175,7 @@ bool write(const fs::path& path, const std::string& text, Messages& err) {
 
 bool writeResults(Player& player, const RunOptions& options, Messages& err) {
     bool good = true;
+    makeFolderOf(options.screenshot);
     if (!options.screenshot.empty() && player.frames() > 0 &&
         !writePng(options.screenshot, player.capture())) {
         err.tell("can't write " + shownPath(options.screenshot) + "\n");

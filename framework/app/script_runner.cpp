@@ -41,8 +41,7 @@ std::optional<Image> readPicture(const fs::path& path, std::string& problem) {
 }
 
 bool write(const fs::path& path, const Image& image) {
-    std::error_code error;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+    makeFolderOf(path);
     return writePng(path, image);
 }
 

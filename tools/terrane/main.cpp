@@ -141,7 +141,9 @@ void addPlay(CLI::App& app, Arguments& a) {
         ->type_name("FILE");
     play->add_option("--trace", a.run.trace, "Write when each task ran (opens in Perfetto)")
         ->type_name("FILE");
-    play->add_flag("--keep-going", a.run.player.keepGoing, "Draw what can be drawn despite errors");
+    play->add_flag(
+        "--keep-going", a.run.player.keepGoing,
+        "Draw what can be drawn despite errors of the archive, which are no failure then");
     play->add_option("--samples", a.samples, "Samples of a pixel [1] (more are not built yet)")
         ->type_name("N")
         ->check(within(1, 32));

@@ -5,8 +5,25 @@
 
 #include <filesystem>
 #include <ostream>
+#include <string_view>
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// As a shell takes it for one word.
+std::string asWord(const std::string& name) {
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                        "0123456789_-./+,:@%=";
+    const bool plain = name.find_first_not_of(kPlain) == std::string::npos;
+    if (plain) return name;
+    std::string quoted = "'";
+    for (const char c : name)
+        quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    return quoted + "'";
+}
+
+} // namespace
 
 int makeNewArchive(const std::string& name, std::ostream& out, std::ostream& err) {
     std::error_code error;
@@ -39,7 +56,7 @@ int makeNewArchive(const std::string& name, std::ostream& out, std::ostream& err
         err << "terrane: can't write " << name << ": " << error.message() << "\n";
         return 1;
     }
-    out << "Made " << name << ". Now try\n  terrane play " << name
+    out << "Made " << name << ". Now try\n  terrane play " << asWord(name)
         << " --headless --screenshot picture.png\n";
     return 0;
 }
