@@ -105,6 +105,8 @@ std::vector<ValueForm> valueForms(const AttributeDeclaration& a) {
     case ValueKind::target:
         return {{.pattern = kTarget}};
     case ValueKind::text:
+        if (a.required) return {{.notEmpty = true}};
+        break;
     case ValueKind::textList:
     case ValueKind::referenceList:
     case ValueKind::file:
