@@ -8,6 +8,8 @@
 #include "resource/manager.h"
 #include "resource/registry.h"
 
+#include <algorithm>
+
 namespace terrane {
 
 namespace {
@@ -20,10 +22,33 @@ struct MeshElement : ElementDescription {
     Attr<DataFile> source;
 };
 
+// A misspelt name may be that of a file, or of a mesh that needs none, with as many vertices.
+void reportMissing(const std::string& name, const Place& place, const SearchPath& path,
+                   Diagnostics& diagnostics) {
+    const std::size_t begin = std::min(name.find_first_of("0123456789"), name.size());
+    const std::size_t end = name.find_first_not_of("0123456789", begin);
+    const std::string vertices = name.substr(begin, end - begin);
+    std::vector<std::string> known = path.namesNear(name);
+    known.emplace_back("quad.mesh");
+    for (const char* kind : {"", "skirt", "adjacency"})
+        known.push_back("grid" + vertices + kind + ".mesh");
+    diagnostics.report({.code = "file-missing",
+                        .place = place,
+                        .message = "there is no file " + inQuotes(name),
+                        .expected = "a file in the archive's folder or in a --path, or a mesh of "
+                                    "ours such as 'grid.mesh'",
+                        .suggestion = nearestName(name, known)});
+}
+
 std::optional<MeshData> load(const MeshElement& d, BuildContext& context) {
     const std::string& name = d.source->name;
-    if (!context.manager().library().searchPath().find(name)) {
+    const SearchPath& path = context.manager().library().searchPath();
+    if (!path.find(name)) {
         if (auto mesh = builtInMesh(name)) return mesh;
+        if (!SearchPath::leavesFolders(name)) {
+            reportMissing(name, d.source.place, path, context.diagnostics());
+            return std::nullopt;
+        }
     }
     auto file = context.readSource(name, d.source.place);
     if (!file) return std::nullopt;

@@ -176,7 +176,9 @@ std::shared_ptr<Texture> Program::sharedTextureOf(const Slot& slot) {
 
 void Program::setTexture(Slot& slot, std::shared_ptr<const Texture> texture) {
     if (!slot.uniform.type->isSampler()) return reportMismatch(slot, "sampler");
-    if (!slot.textureEntry && slot.texture == texture) return;
+    // One that nobody shared so far may be shared now.
+    const bool asShared = slot.texture.use_count() > 0 || texture.use_count() == 0;
+    if (!slot.textureEntry && slot.texture == texture && asShared) return;
     slot.textureEntry = nullptr;
     slot.texture = std::move(texture);
     checkTexture(slot, slot.texture.get());

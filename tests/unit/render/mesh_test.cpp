@@ -97,6 +97,8 @@ TEST_CASE_FIXTURE(DrawFixture, "A mesh with indices is drawn whole, in part, wit
     CHECK(picture() == "......#.");
     mesh.draw(Mesh::Range{0, 1}, 2);
     CHECK(picture() == ".#.#....");
+    mesh.draw(Mesh::Range{0, 1, 3}, 2);
+    CHECK(picture() == "....#.#.");
     const Mesh::Range ranges[] = {{0, 1, 0}, {2, 1, 2}};
     mesh.draw(ranges);
     CHECK(picture() == ".#.....#");
@@ -117,10 +119,12 @@ TEST_CASE_FIXTURE(DrawFixture, "Draw commands can come from a buffer") {
     data.indices = {1, 3, 5};
     const Mesh indexed(*context, data);
     // count, instances, first, base vertex, base instance
-    const std::uint32_t elements[] = {1, 1, 2, 2, 0};
+    const std::uint32_t elements[] = {1, 1, 2, 2, 0, 1, 2, 0, 1, 0};
     const Buffer elementCommands(*context, std::as_bytes(std::span(elements)));
     indexed.drawIndirect(elementCommands, 1);
     CHECK(picture() == ".......#");
+    indexed.drawIndirect(elementCommands, 2); // the second one twice
+    CHECK(picture() == "..#.#..#");
 }
 
 TEST_CASE_FIXTURE(DrawFixture, "Indices of 8, 16 and 32 bits reach the last vertex") {

@@ -203,6 +203,32 @@ TEST_CASE_FIXTURE(ProgramFixture, "Values survive a reload") {
     }
 }
 
+TEST_CASE_FIXTURE(ProgramFixture, "The texture of a sampler survives a reload, and its absence") {
+    const auto texture = std::make_shared<Texture>(*context, TextureDescription{});
+    const glm::u8vec4 red(255, 0, 0, 255);
+    texture->upload({TransferFormat::rgba, TransferType::u8}, std::as_bytes(std::span(&red, 1)));
+    const auto program = shows("uniform sampler2D s;", "texture(s, vec2(0.5))");
+    REQUIRE(program);
+    const UniformHandle sampler = program->find("s");
+    sampler.set(std::shared_ptr<const Texture>(texture));
+    CHECK(draw(*program) == glm::vec4(1, 0, 0, 1));
+    const auto without = shows("", "vec4(0)");
+    program->replaceBy(*without);
+    CHECK(draw(*program) == glm::vec4(0));
+    CHECK(sampler.sharedTexture() == nullptr);
+    const auto with = shows("uniform float more; uniform sampler2D s;",
+                            "texture(s, vec2(0.5)) + vec4(0, more, 0, 0)");
+    program->replaceBy(*with);
+    CHECK(draw(*program) == glm::vec4(1, 0, 0, 1));
+    CHECK(sampler.sharedTexture() == texture);
+    const auto other = std::make_shared<Texture>(*context, TextureDescription{});
+    sampler.set(*other); // somebody else keeps it
+    CHECK(sampler.texture() == other.get());
+    CHECK(sampler.sharedTexture() == nullptr);
+    sampler.set(std::shared_ptr<const Texture>(other));
+    CHECK(sampler.sharedTexture() == other);
+}
+
 TEST_CASE_FIXTURE(ProgramFixture, "An edited initial value shows unless the value was set") {
     const auto version = [&](float initial) {
         ModuleSource m = fragment("uniform float a, b; layout(location = 0) out vec4 c;\n"

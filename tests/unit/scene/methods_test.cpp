@@ -169,6 +169,48 @@ TEST_CASE_FIXTURE(MethodFixture, "What can't be found is told with its place, th
 }
 
 TEST_CASE_FIXTURE(MethodFixture,
+                  "A misspelt target gets the nearest node, method, mesh or module") {
+    struct Row {
+        const char* task;
+        const char* code;
+        const char* suggestion;
+    };
+    const Row rows[] = {
+        {"<callMethod name='camra.other'/>", "unknown-target", "camera.other"},
+        {"<callMethod name='ths.other'/>", "unknown-target", "this.other"},
+        {"<callMethod name='this.othr'/>", "missing-method", "this.other"},
+        {"<callMethod name='this.nothing'/>", "missing-method", ""},
+        {"<drawMesh name='this.geometri'/>", "missing-mesh", "this.geometry"},
+        {"<setProgram><module name='this.materiel'/></setProgram>", "missing-module",
+         "this.material"},
+        {"<setTarget><buffer name='COLOR0' texture='this.imag'/></setTarget>", "missing-texture",
+         "this.image"},
+        {"<drawMesh name='gridskrt'/>", "file-missing", "gridskirt.mesh"},
+        {"<drawMesh name='grid25skrt'/>", "file-missing", "grid25skirt.mesh"},
+        {"<drawMesh name='qaud'/>", "file-missing", "quad.mesh"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.task);
+        diagnostics.clear();
+        scene.reset();
+        resources.reset();
+        load("<sequence name='other'/><module name='red' version='330' source='flat.glsl'/>"
+             "<texture2D name='t' internalformat='R8' format='RED' type='UNSIGNED_BYTE' width='1' "
+             "height='1'/>"
+             "<sequence name='frame'>" +
+             std::string(row.task) +
+             "</sequence><node name='scene'><node flags='camera'><uniformSampler id='image' "
+             "texture='t'/><module id='material' value='red'/><mesh id='geometry' "
+             "value='quad.mesh'/><method id='other' value='other'/><method id='draw' "
+             "value='frame'/></node></node>");
+        scene->plan();
+        REQUIRE(diagnostics.all().size() == 1);
+        CHECK(diagnostics.all()[0].code == row.code);
+        CHECK(diagnostics.all()[0].suggestion == row.suggestion);
+    }
+}
+
+TEST_CASE_FIXTURE(MethodFixture,
                   "A target without a node falls back to the resource, with a warning") {
     loadFrame("<setProgram><module name=\"nobody.red\"/></setProgram><drawMesh name=\"quad\"/>");
     CHECK(draw());
