@@ -31,12 +31,13 @@ struct PlayerDescription : ElementDescription {
 const ElementDeclaration& declareView(Registry& registry) {
     using D = ViewDescription;
     return registry.element<D>("view", "A place to look from; the first one is where play starts.")
-        .attribute("name", &D::label, "label")
-        .attribute("x0", &D::x0, "x or longitude of the point looked at")
+        .example(R"(<view name="valley" x0="-20000" y0="12000" theta="1.4" phi="2.094" d="8500"/>)")
+        .attribute("name", &D::label, "label by which a player names it")
+        .attribute("x0", &D::x0, "x of the point looked at; on a planet, its longitude")
         .unit("m or rad")
-        .attribute("y0", &D::y0, "y or latitude of the point looked at")
+        .attribute("y0", &D::y0, "y of the point looked at; on a planet, its latitude")
         .unit("m or rad")
-        .attribute("theta", &D::theta, "zenith angle; 0 looks straight down")
+        .attribute("theta", &D::theta, "angle from the vertical; 0 looks straight down")
         .unit("rad")
         .attribute("phi", &D::phi, "azimuth; 0 looks to the north")
         .unit("rad")
@@ -52,7 +53,12 @@ const ElementDeclaration& declareView(Registry& registry) {
 
 const ElementDeclaration& declarePlayer(Registry& registry, const ElementDeclaration& view) {
     using D = PlayerDescription;
-    return registry.element<D>("player", "How the archive is to be played.")
+    return registry
+        .element<D>("player", "How the archive is to be played. Without it, what is named and "
+                              "flagged as the defaults say is.")
+        .example(R"(<player root="scene" camera="camera" method="draw">
+    <view name="start" theta="1.2" d="5000"/>
+</player>)")
         .attribute("root", &D::root, "root node of the scene")
         .attribute("camera", &D::camera, "flag of the camera node")
         .attribute("method", &D::method, "method of the camera node that draws a frame")

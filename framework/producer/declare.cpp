@@ -130,8 +130,9 @@ struct ObjectTileStorageDescription : ElementDescription {
 void declareObjectTileStorage(Registry& registry) {
     using D = ObjectTileStorageDescription;
     registry
-        .resource<ObjectTileStorage, D, TileStorage>("objectTileStorage",
-                                                     "Tiles that are graphs, meshes, lists...")
+        .resource<ObjectTileStorage, D, TileStorage>(
+            "objectTileStorage",
+            "Tiles that are objects of a producer, such as graphs or meshes, in main memory.")
         .attribute("capacity", &D::capacity, "number of tiles")
         .required()
         .atLeast(1)
@@ -170,6 +171,9 @@ void declareTileCache(Registry& registry) {
         .resource<TileCache, D>("tileCache",
                                 "Keeps the tiles of producers; those in use are locked, the "
                                 "others go when room is needed, the longest unused first.")
+        .example(R"(<tileCache name="elevationCache" scheduler="defaultScheduler">
+    <gpuTileStorage tileSize="101" nTiles="640" internalformat="RGB32F" format="RGB" type="FLOAT"/>
+</tileCache>)")
         .attribute("scheduler", &D::scheduler, "what runs the tasks that produce tiles")
         .required()
         .attribute("storage", &D::storage, "where the tiles are, if it is not nested")

@@ -69,7 +69,10 @@ void declareFont(Registry& registry) {
     using D = FontElement;
     registry.nameInterface<Font>("font");
     registry.resource<Font, D>("font", "Letters, as tiles of a texture.")
-        .attribute("tex", &D::tex, "texture2D with the tiles")
+        .example(
+            R"(<font name="letters" tex="letters.png" nCols="16" nRows="8" minChar="0" maxChar="127"
+    invalidChar="63" charWidths="9"/>)")
+        .attribute("tex", &D::tex, "the texture2D with the tiles")
         .required()
         .attribute("nCols", &D::nCols, "tiles in a row")
         .required()

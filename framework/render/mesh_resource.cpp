@@ -89,8 +89,15 @@ std::optional<MeshData> builtInMesh(std::string_view name) {
 
 void declareMesh(Registry& registry) {
     using D = MeshElement;
-    registry.resource<Mesh, D>("mesh", "Vertices, and how they are drawn.")
-        .attribute("source", &D::source, "the .mesh file")
+    registry
+        .resource<Mesh, D>(
+            "mesh",
+            "Vertices, and how they are drawn. A file is one by its name alone: 'rock.mesh'.")
+        .example(R"(<mesh name="ground" source="grid40skirt.mesh"/>)")
+        .attribute(
+            "source", &D::source,
+            "the .mesh file; 'quad.mesh' is built in, and so are 'grid.mesh' of 25 x 25 vertices, "
+            "others such as 'grid40.mesh', and 'gridskirt.mesh', which hides cracks")
         .required()
         .lenient()
         .build(build);

@@ -125,7 +125,14 @@ void declareModule(Registry& registry) {
     const auto uniforms = declareInitialUniforms(registry);
     auto module = registry.resource<Module, D>(
         "module", "GLSL of one or more stages, with initial values of its uniforms.");
-    module.attribute("version", &D::version, "version of GLSL, as in #version")
+    module
+        .example(
+            R"(<module name="groundModule" version="330" source="ground.glsl" options="SNOW,LAYERS 3">
+    <uniform1f name="snowLine" x="2250"/>
+    <uniform3f name="sun" x="0.3" y="-0.74" z="0.4"/>
+    <uniformSampler name="rock" texture="rock.png"/>
+</module>)")
+        .attribute("version", &D::version, "version of GLSL, such as 330")
         .required()
         .attribute("source", &D::source,
                    "file of all stages: a stage exists if the text mentions its macro, _VERTEX_, "

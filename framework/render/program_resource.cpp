@@ -66,6 +66,10 @@ void declareProgram(Registry& registry) {
     registry
         .resource<Program, ProgramElement>(
             "program", "Modules linked in order; usually written as the name 'a;b;'.")
+        .example(R"(<program name="groundProgram">
+    <module name="weather"/>
+    <module name="groundModule"/>
+</program>)")
         .child(module, 1)
         .build(build);
     registry.nameInterface<Program>("program");

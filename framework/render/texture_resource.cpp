@@ -238,22 +238,24 @@ std::shared_ptr<Texture> buildTexture(T target, const TextureElement& d, BuildCo
     return texture;
 }
 
-void declareTexture(Registry& registry, const std::string& tag, T target, std::string summary) {
+void declareTexture(Registry& registry, const std::string& tag, T target, std::string summary,
+                    std::string example = {}) {
     using D = TextureElement;
     auto texture = registry.resource<Texture, D>(tag, std::move(summary));
-    texture
+    texture.example(std::move(example))
         .attribute("source", &D::source,
                    "picture (JPEG, PNG, BMP, TGA, PSD, HDR) or raw float file; several slices, "
                    "layers or faces are stacked, the first at the bottom")
         .attribute("internalformat", &D::internalformat, "how pixels are stored",
                    internalFormatWords())
         .required()
-        .attribute("format", &D::format, "channels of the pixels of the file; needed without one",
+        .attribute("format", &D::format,
+                   "order of the channels in the file, or of a texture without one, which needs it",
                    transferFormatWords())
         .attribute("type", &D::type,
-                   "type of a channel; a file's own type counts, and without a file it is needed",
+                   "type of a channel; a file knows its own, a texture without one needs it",
                    transferTypeWords())
-        .attribute("width", &D::width, "width, unless the source says it")
+        .attribute("width", &D::width, "width; a picture knows its own")
         .unit("pixels")
         .atLeast(1);
     if (hasHeight(target)) {
@@ -291,17 +293,27 @@ void declareTexture(Registry& registry, const std::string& tag, T target, std::s
 
 void declareTextures(Registry& registry) {
     registry.nameInterface<Texture>("texture");
-    declareTexture(registry, "texture1D", T::texture1D, "A line of pixels.");
-    declareTexture(registry, "texture1DArray", T::texture1DArray, "Lines of pixels.");
-    declareTexture(registry, "texture2D", T::texture2D, "A picture.");
+    declareTexture(registry, "texture1D", T::texture1D,
+                   "A texture of one dimension: a line of pixels.");
+    declareTexture(registry, "texture1DArray", T::texture1DArray,
+                   "Several lines of pixels; shaders choose one by its number.");
+    declareTexture(
+        registry, "texture2D", T::texture2D,
+        "A texture of two dimensions: a picture. An image file is one by its name alone: "
+        "'rock.png'.",
+        R"(<texture2D name="grass" source="grass.jpg" internalformat="RGB8" min="LINEAR_MIPMAP_LINEAR"
+    mag="LINEAR" wraps="REPEAT" wrapt="REPEAT"/>)");
     declareTexture(registry, "texture2DArray", T::texture2DArray,
-                   "Pictures of one size, stacked in the height.");
-    declareTexture(registry, "texture3D", T::texture3D, "A volume, its slices stacked.");
+                   "Several pictures of one size; shaders choose one by its number.");
+    declareTexture(registry, "texture3D", T::texture3D,
+                   "A texture of three dimensions: a volume, of slices.");
     declareTexture(registry, "textureCube", T::cube,
-                   "Six square faces around a point, stacked: +X -X +Y -Y +Z -Z from the bottom.");
-    declareTexture(registry, "textureCubeArray", T::cubeArray, "Cubes, their faces stacked.");
+                   "Six square pictures around a point, stacked in the file: +X -X +Y -Y +Z -Z "
+                   "from the bottom.");
+    declareTexture(registry, "textureCubeArray", T::cubeArray,
+                   "Several cubes; shaders choose one by its number.");
     declareTexture(registry, "textureRectangle", T::rectangle,
-                   "A picture that shaders address in pixels.");
+                   "A picture whose coordinates in shaders are pixels.");
 }
 
 } // namespace terrane

@@ -63,6 +63,18 @@ ManualSections::ManualSections(const Schema& schema)
             }
         }
     }
+    // A list stands at its first use, in the order of pages.
+    const auto collect = [&](const std::string& chapter) {
+        for (const SchemaType& type : schema.types()) {
+            if (chapterOf(type) != chapter) continue;
+            for (const AttributeDeclaration& a : type.declaration->attributes) {
+                if (a.words.size() > kWordsInCell) longLists_.try_emplace(a.words, &type);
+            }
+        }
+    };
+    for (const Chapter& chapter : schema.registry().chapters())
+        collect(chapter.title);
+    collect("Others");
 }
 
 std::string ManualSections::chapterOf(const SchemaType& type) {
@@ -82,11 +94,12 @@ std::string ManualSections::link(const SchemaType& type, const std::string& chap
                   (page == chapter ? "" : pageOf(page)) + "#" + anchorOf(heading(type)));
 }
 
-std::string ManualSections::list(const Types& types, const std::string& chapter) const {
+std::string ManualSections::list(const Types& types, const std::string& chapter,
+                                 const std::string& lastWord) const {
     std::vector<std::string> links;
     for (const SchemaType* type : types)
         links.push_back(link(*type, chapter));
-    return alternatives(links);
+    return alternatives(links, lastWord);
 }
 
 std::string ManualSections::write(const SchemaType& type) const {
@@ -198,9 +211,10 @@ std::string ManualSections::referred(const SchemaType& type, const AttributeDecl
     for (const std::string& tag : referredTags(schema_.registry(), a))
         types.push_back(byTag_.at(tag));
     const std::string name = referredName(schema_.registry(), a);
-    if (types.empty() || types.size() > kTypesInCell) {
+    if (types.empty()) return name;
+    if (types.size() > kTypesInCell) {
         const std::string article = a.kind == ValueKind::reference ? "a " : "";
-        return name.starts_with("any") ? name : article + name;
+        return article + asLink(name, pageOf(chapterOf(*types.front())));
     }
     return list(types, chapterOf(type));
 }
@@ -219,9 +233,11 @@ std::string ManualSections::words(const SchemaType& type) const {
     }
     std::string text;
     for (const auto& [names, list] : lines) {
+        const SchemaType* const first = longLists_.at(*list);
         std::string all;
         for (const std::string& word : asCodes(*list))
             all += (all.empty() ? "" : ", ") + word;
+        if (first != &type) all = "as of " + link(*first, chapterOf(type));
         text += "\nWords of " + names + ": " + all + ".\n";
     }
     return text;
@@ -265,17 +281,25 @@ std::string ManualSections::builtTypes(std::type_index interface,
 // Attributes that name resources of the type, by the elements that have them.
 std::string ManualSections::usedBy(const SchemaType& type) const {
     if (!byTag_.contains(type.id) || type.declaration->planned) return {};
-    std::string text;
+    std::vector<std::pair<std::string, Types>> users;
     for (const SchemaType& user : schema_.types()) {
         std::string names;
         for (const AttributeDeclaration& a : user.declaration->attributes) {
-            const bool names_it = a.refersTo && *a.refersTo != std::type_index(typeid(Resource)) &&
-                                  type.declaration->isA(*a.refersTo);
-            if (names_it) names += (names.empty() ? "" : ", ") + asCode(a.name);
+            const bool refers = a.refersTo && *a.refersTo != std::type_index(typeid(Resource)) &&
+                                type.declaration->isA(*a.refersTo);
+            if (refers) names += (names.empty() ? "" : ", ") + asCode(a.name);
         }
         if (names.empty()) continue;
-        text += (text.empty() ? "" : "; ") + names + " of " + link(user, chapterOf(type));
+        const auto known = std::find_if(users.begin(), users.end(),
+                                        [&](const auto& each) { return each.first == names; });
+        if (known == users.end())
+            users.push_back({names, {&user}});
+        else
+            known->second.push_back(&user);
     }
+    std::string text;
+    for (const auto& [names, types] : users)
+        text += (text.empty() ? "" : "; ") + names + " of " + list(types, chapterOf(type), " and ");
     return text.empty() ? "" : "\nNamed by " + text + ".\n";
 }
 

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace terrane {
 
@@ -32,12 +33,15 @@ private:
     std::string children(const SchemaType& type) const;
     std::string builtTypes(std::type_index interface, const std::string& chapter) const;
     std::string usedBy(const SchemaType& type) const;
-    std::string list(const Types& types, const std::string& chapter) const;
+    std::string list(const Types& types, const std::string& chapter,
+                     const std::string& lastWord = " or ") const;
     Types locals(const SchemaType& type) const;
 
     const Schema& schema_;
     std::map<const SchemaType*, const SchemaType*> parent_; ///< of local elements: the first
     std::map<std::string, const SchemaType*> byTag_;        ///< resources
+    /// Long lists of words, and the first type that has each.
+    std::map<std::vector<std::string>, const SchemaType*> longLists_;
 };
 
 } // namespace terrane

@@ -73,10 +73,13 @@ std::vector<Contents> contents(const Schema& schema) {
 std::string listOf(const Contents& page, const ManualSections& sections,
                    const std::string& chapter) {
     std::string text;
-    for (const SchemaType* type : page.types)
-        text += "- " + sections.link(*type, chapter) + ": " +
-                asMarkdown(asSentence(type->declaration->summary)) +
-                (type->declaration->planned && !isPlanned(page) ? " *Not built yet.*" : "") + "\n";
+    for (const SchemaType* type : page.types) {
+        const ElementDeclaration& d = *type->declaration;
+        const bool section = !isPlanned(page);
+        text += "- " + (section ? sections.link(*type, chapter) : asCode("<" + d.tag + ">")) +
+                ": " + asMarkdown(asSentence(d.summary)) +
+                (d.planned && section ? " *Not built yet.*" : "") + "\n";
+    }
     return text;
 }
 
@@ -84,7 +87,8 @@ std::string pageText(const Contents& page, const ManualSections& sections) {
     const std::string& title = page.chapter.title;
     std::string text = "# " + title + "\n\n" + page.chapter.summary + "\n\n" +
                        asLink("All elements", "README.md") + "\n\n";
-    if (!isPlanned(page)) text += listOf(page, sections, title) + "\n";
+    if (isPlanned(page)) return text + listOf(page, sections, title);
+    text += listOf(page, sections, title) + "\n";
     for (const SchemaType* type : page.types)
         text += sections.write(*type) + "\n";
     text.pop_back();
@@ -99,8 +103,8 @@ std::vector<ManualPage> writeManual(const Schema& schema) {
     std::vector<ManualPage> pages{{"README.md", {}}};
     for (const Contents& page : contents(schema)) {
         const std::string& title = page.chapter.title;
-        index += "\n## " + asLink(title, pageOf(title)) + "\n\n" + page.chapter.summary + "\n\n" +
-                 listOf(page, sections, {});
+        index += "\n## " + asLink(title, pageOf(title)) + "\n\n" + page.chapter.summary + "\n";
+        if (!isPlanned(page)) index += "\n" + listOf(page, sections, {});
         pages.push_back({pageOf(title), pageText(page, sections)});
     }
     const std::string node = "NODE";

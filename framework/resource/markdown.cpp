@@ -68,10 +68,10 @@ std::string pageOf(std::string_view title) {
     return anchorOf(title) + ".md";
 }
 
-std::string alternatives(const std::vector<std::string>& markdown) {
+std::string alternatives(const std::vector<std::string>& markdown, const std::string& lastWord) {
     std::string text;
     for (std::size_t i = 0; i < markdown.size(); ++i) {
-        if (i > 0) text += i + 1 == markdown.size() ? " or " : ", ";
+        if (i > 0) text += i + 1 == markdown.size() ? lastWord : ", ";
         text += markdown[i];
     }
     return text;

@@ -17,8 +17,9 @@ std::string asLink(const std::string& markdown, const std::string& target);
 std::string anchorOf(std::string_view heading);
 /// The name of a page with a title: "Meshes and fonts" is "meshes-and-fonts.md".
 std::string pageOf(std::string_view title);
-/// "a, b or c".
-std::string alternatives(const std::vector<std::string>& markdown);
+/// "a, b or c", or with another last word.
+std::string alternatives(const std::vector<std::string>& markdown,
+                         const std::string& lastWord = " or ");
 /// A row of a table.
 std::string tableRow(const std::vector<std::string>& cells);
 

@@ -5,6 +5,7 @@
 #include "resource/attribute_range.h"
 #include "resource/value_grammar.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace terrane {
@@ -27,9 +28,13 @@ std::string rangeSentence(const AttributeDeclaration& a) {
 
 std::string asSentence(std::string text) {
     if (text.empty()) return text;
-    // A name in quotes, or of a thing spelt otherwise, stays as it is.
-    const bool word = text.size() > 1 && !std::isupper(static_cast<unsigned char>(text[1]));
-    if (word) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    // What is a name, such as mat4, stays as it is spelt.
+    const std::string_view word = std::string_view(text).substr(0, text.find_first_of(" :,;"));
+    const bool isName = std::any_of(word.begin() + 1, word.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return std::isupper(byte) || std::isdigit(byte) || c == '.' || c == '_';
+    });
+    if (!isName) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     if (text.back() != '.' && text.back() != '?') text += '.';
     return text;
 }

@@ -182,26 +182,37 @@ void declareControlTasks(Registry& registry) {
     registry.nameInterface<SceneTask>("a task");
     registry
         .resource<Sequence, SequenceDescription, SceneTask>("sequence",
-                                                            "Tasks one after the other.")
+                                                            "Runs tasks one after the other.")
+        .example(R"(<sequence name="drawGround">
+    <setProgram><module name="this.material"/></setProgram>
+    <drawTerrain name="this.terrain" mesh="this.grid" culling="true"/>
+</sequence>)")
         .children<SceneTask>("the tasks, in order")
         .build([](const SequenceDescription& d, BuildContext&) {
             return std::make_shared<Sequence>(d);
         });
 
     using F = ForeachDescription;
-    registry.resource<Foreach, F, SceneTask>("foreach", "Tasks for each node that has a flag.")
-        .attribute("var", &F::var, "loop variable, used as $var")
+    registry.resource<Foreach, F, SceneTask>("foreach", "Runs tasks for each node that has a flag.")
+        .example(R"(<foreach name="drawObjects" var="o" flag="object" culling="true">
+    <callMethod name="$o.draw"/>
+</foreach>)")
+        .attribute("var", &F::var,
+                   "name of a variable that stands for the node in turn: with 'o', tasks in the "
+                   "loop say '$o.draw'")
         .required()
-        .attribute("flag", &F::flag, "flag (or name) of the nodes")
+        .attribute("flag", &F::flag, "flag, or name, of the nodes")
         .required()
         .attribute("culling", &F::culling, "leaves out nodes that the camera can't see")
-        .attribute("parallel", &F::parallel, "no order among the nodes")
+        .attribute("parallel", &F::parallel,
+                   "the tasks of different nodes may run in any order, and at once")
         .children<SceneTask>("the tasks, in order")
         .build([](const F& d, BuildContext&) { return std::make_shared<Foreach>(d); });
 
     using C = CallMethodDescription;
     registry.resource<CallMethod, C, SceneTask>("callMethod", "Runs a method of a node.")
-        .attribute("name", &C::method, "target and method id, such as 'this.draw' or '$o.draw'")
+        .attribute("name", &C::method,
+                   "the node, and the key of its method: 'this.draw', '$o.draw', 'camera.draw'")
         .required()
         .build([](const C& d, BuildContext&) { return std::make_shared<CallMethod>(d); });
 }

@@ -88,7 +88,10 @@ Mesh* findMesh(const Attr<Target>& name, BindContext& context) {
 void declareDrawMesh(Registry& registry) {
     using D = DrawMeshDescription;
     registry.resource<DrawMesh, D, SceneTask>("drawMesh", "Draws a mesh with the current program.")
-        .attribute("name", &D::mesh, "'target.mesh id', or 'm' for the resource 'm.mesh'")
+        .example(R"(<drawMesh name="this.rock" count="100"/>)")
+        .attribute(
+            "name", &D::mesh,
+            "the mesh: by its key at a node, such as 'this.grid', or 'm' for the resource 'm.mesh'")
         .required()
         .attribute("count", &D::count, "number of instances")
         .atLeast(0)

@@ -19,7 +19,7 @@ struct DepthElement : StateElement {
     static const ElementDeclaration& declare(Registry& registry) {
         using D = DepthElement;
         return registry.element<D>("depth", "The depth test.")
-            .attribute("enable", &D::enable, "whether there is one")
+            .attribute("enable", &D::enable, "whether there is a depth test")
             .attribute("value", &D::value, "what passes", kCompareWords)
             .declaration();
     }
@@ -64,7 +64,7 @@ struct StencilElement : StateElement {
         using D = StencilElement;
         const auto& operation = kStencilOperationWords;
         return registry.element<D>("stencil", "The stencil test. Without a back group, both faces.")
-            .attribute("enable", &D::enable, "whether there is one")
+            .attribute("enable", &D::enable, "whether there is a stencil test")
             .attribute("ffunction", &D::ffunction, "front: what passes", kCompareWords)
             .attribute("fref", &D::fref, "front: reference value")
             .attribute("fmask", &D::fmask, "front: bits that are compared")
@@ -166,7 +166,7 @@ struct LogicElement : StateElement {
     static const ElementDeclaration& declare(Registry& registry) {
         using D = LogicElement;
         return registry.element<D>("logic", "Logical operation between new and old colours.")
-            .attribute("enable", &D::enable, "whether there is one")
+            .attribute("enable", &D::enable, "whether there is a logical operation")
             .attribute("value", &D::value, "the operation", kLogicWords)
             .declaration();
     }
@@ -187,7 +187,8 @@ struct ScissorElement : StateElement {
     static const ElementDeclaration& declare(Registry& registry) {
         using D = ScissorElement;
         return registry.element<D>("scissor", "The scissor test.")
-            .attribute("enable", &D::enable, "whether there is one")
+            .attribute("enable", &D::enable,
+                       "whether there is a scissor test: only what is in the rectangle is drawn")
             .attribute("x", &D::x, "left side")
             .unit("pixels")
             .attribute("y", &D::y, "bottom")

@@ -208,7 +208,7 @@ const ElementDeclaration& declareValue(Registry& registry) {
         .prefix(std::move(tags))
         .attribute("id", &D::key, "key, and name of the uniform")
         .required()
-        .attribute("x", &D::x, "first component")
+        .attribute("x", &D::x, "first component; without it, the value is a texture")
         .orInfinite()
         .attribute("y", &D::y, "second component")
         .orInfinite()
@@ -229,7 +229,7 @@ const ElementDeclaration& declareMethod(Registry& registry) {
     return registry.element<D>("method", "Something that the node does when it is called.")
         .attribute("id", &D::key, "key that callMethod uses")
         .required()
-        .attribute("value", &D::value, "the task that the method runs")
+        .attribute("value", &D::value, "the task that the method runs, mostly a sequence")
         .required()
         .attribute("enabled", &D::enabled, "whether calls run it")
         .trueUnlessFalse()
@@ -239,7 +239,7 @@ const ElementDeclaration& declareMethod(Registry& registry) {
 const ElementDeclaration& declareRotation(Registry& registry, const char* tag) {
     using D = RotateDescription;
     return registry.element<D>(tag, "Rotates what comes after it.")
-        .attribute("angle", &D::angle, "angle of the rotation, counter-clockwise")
+        .attribute("angle", &D::angle, "angle, counter-clockwise seen from the tip of the axis")
         .unit("degrees")
         .declaration();
 }
@@ -278,7 +278,16 @@ void declareSceneNode(Registry& registry) {
     registry.nameInterface<SceneNode>("a node");
     auto node = registry.resource<SceneNode, D>(
         "node", "A node of the scene: a place, what hangs at it, and what it can do.");
-    node.attribute("flags", &D::flags, "words by which methods find the node")
+    node.example(R"(<node name="ground" flags="object">
+    <bounds xmin="-5000" xmax="5000" ymin="-5000" ymax="5000" zmin="0" zmax="900"/>
+    <field id="terrain" value="groundTerrain"/>
+    <tileSampler id="heights" sampler="elevationSampler" producer="elevations"/>
+    <module id="material" value="groundModule"/>
+    <mesh id="grid" value="gridskirt.mesh"/>
+    <method id="update" value="updateGround"/>
+    <method id="draw" value="drawGround"/>
+</node>)")
+        .attribute("flags", &D::flags, "words by which methods find the node")
         .attribute("value", &D::value, "in a nested node: the node to use instead of this one")
         .standsForAll("value")
         .check(checkFlags)
@@ -288,12 +297,19 @@ void declareSceneNode(Registry& registry) {
         .child(declareRotation(registry, "rotatez"))
         .child(declareBounds(registry))
         .child(declareValue(registry))
-        .child(declareKeyed<Module>(registry, "module", "Shader code of the node.", "a module")
+        .child(declareKeyed<Module>(registry, "module",
+                                    "A shader of the node, by the key that methods use.",
+                                    "the module")
                    .lenient()
                    .declaration())
-        .child(declareKeyed<Mesh>(registry, "mesh", "A mesh of the node.", "a mesh").declaration())
-        .child(declareKeyed<Resource>(registry, "field", "Any resource, kept at the node.",
-                                      "the resource")
+        .child(declareKeyed<Mesh>(registry, "mesh",
+                                  "A mesh of the node, by the key that methods use; its bounding "
+                                  "box enlarges the node's.",
+                                  "the mesh")
+                   .declaration())
+        .child(declareKeyed<Resource>(
+                   registry, "field",
+                   "Any resource, by the key that methods use, such as a terrain.", "the resource")
                    .declaration())
         .child(declareMethod(registry))
         .child(node.declaration())

@@ -134,14 +134,20 @@ void declareSetProgram(Registry& registry) {
     using M = ModuleNameDescription;
     const ElementDeclaration& module =
         registry.element<M>("module", "A module of the program; the order counts.")
-            .attribute("name", &M::module, "'target.module id', or the name of a module")
+            .attribute("name", &M::module,
+                       "the module: by its key at a node, such as 'this.material', or its own name")
             .required()
             .declaration();
     using D = SetProgramDescription;
     registry
         .resource<SetProgram, D, SceneTask>("setProgram",
                                             "Links modules and makes them the current program.")
-        .attribute("setUniforms", &D::setUniforms, "hands the node's values to the program first")
+        .example(R"(<setProgram setUniforms="true">
+    <module name="weather"/>
+    <module name="this.material"/>
+</setProgram>)")
+        .attribute("setUniforms", &D::setUniforms,
+                   "whether the values of the node, its uniforms, are handed to the program")
         .child(module, 1)
         .build([](const D& d, BuildContext&) { return std::make_shared<SetProgram>(d); });
 }

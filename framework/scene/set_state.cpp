@@ -68,11 +68,18 @@ void declareSetState(Registry& registry) {
     using D = SetStateDescription;
     auto builder = registry.resource<SetState, D, SceneTask>(
         "setState", "Changes the state of the current framebuffer; it stays changed.");
-    builder.attribute("readBuffer", &D::readBuffer, "what reading reads", kAttachmentWords)
-        .attribute("drawBuffer", &D::drawBuffer, "where drawing draws", kAttachmentWords)
-        .attribute("clearColor", &D::clearColor, "clears the colours")
-        .attribute("clearStencil", &D::clearStencil, "clears the stencil")
-        .attribute("clearDepth", &D::clearDepth, "clears the depth");
+    builder
+        .example(R"(<setState name="clearForGround" clearColor="true" clearDepth="true">
+    <clear r="0.6" g="0.7" b="0.9" a="1"/>
+    <depth enable="true" value="LESS"/>
+    <polygon back="CULL"/>
+</setState>)")
+        .attribute("readBuffer", &D::readBuffer, "buffer that pixels are read from",
+                   kAttachmentWords)
+        .attribute("drawBuffer", &D::drawBuffer, "buffers that are drawn into", kAttachmentWords)
+        .attribute("clearColor", &D::clearColor, "clears the colours when it runs")
+        .attribute("clearStencil", &D::clearStencil, "clears the stencil when it runs")
+        .attribute("clearDepth", &D::clearDepth, "clears the depth when it runs");
     for (const ElementDeclaration* element : declareRasterStateElements(registry))
         builder.child(*element);
     for (const ElementDeclaration* element : declareFragmentStateElements(registry))

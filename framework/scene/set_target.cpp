@@ -260,10 +260,12 @@ void declareSetTarget(Registry& registry) {
     using B = BufferDescription;
     const ElementDeclaration& buffer =
         registry.element<B>("buffer", "A texture that is drawn into.")
-            .attribute("name", &B::point, "which output", kAttachmentWords)
+            .attribute("name", &B::point, "the output of the shaders that it takes",
+                       kAttachmentWords)
             .required()
             .attribute("texture", &B::texture,
-                       "a texture, 'target.value id' or 'target.module id:sampler'")
+                       "the texture: its name, its key at a node, such as 'this.map', or a sampler "
+                       "of a module of a node, such as 'this.material:map'")
             .required()
             .attribute("level", &B::level, "mipmap level")
             .atLeast(0)
@@ -275,6 +277,10 @@ void declareSetTarget(Registry& registry) {
     registry
         .resource<SetTarget, D, SceneTask>(
             "setTarget", "Draws into textures from now on; without buffers, into the screen again.")
+        .example(R"(<setTarget name="toMaps" autoResize="true">
+    <buffer name="COLOR0" texture="colourMap"/>
+    <buffer name="DEPTH" texture="depthMap"/>
+</setTarget>)")
         .attribute("autoResize", &D::autoResize, "gives the textures the size of the screen")
         .child(buffer)
         .build([](const D& d, BuildContext&) { return std::make_shared<SetTarget>(d); });

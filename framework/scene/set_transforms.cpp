@@ -146,20 +146,27 @@ void declareSetTransforms(Registry& registry) {
     using D = SetTransformsDescription;
     registry
         .resource<SetTransforms, D, SceneTask>(
-            "setTransforms",
-            "Sets uniforms to frames of the scene; each attribute names a uniform.")
-        .attribute("time", &D::time, "vec2: time of the frame and since the last one, microseconds")
-        .attribute("localToWorld", &D::localToWorld, "mat4: this node to world")
-        .attribute("localToScreen", &D::localToScreen, "mat4: this node to clip space")
-        .attribute("cameraToWorld", &D::cameraToWorld, "mat4: camera to world")
-        .attribute("cameraToScreen", &D::cameraToScreen, "mat4: the projection")
-        .attribute("screenToCamera", &D::screenToCamera, "mat4: the inverse projection")
-        .attribute("worldToScreen", &D::worldToScreen, "mat4: world to clip space")
+            "setTransforms", "Sets uniforms to transformations between the frames of the scene. "
+                             "Each attribute names the uniform that is set.")
+        .example(
+            R"(<setTransforms screenToCamera="screenToCamera" cameraToWorld="cameraToWorld"/>)")
+        .attribute("time", &D::time,
+                   "vec2: time of the frame, and since the last one, in microseconds")
+        .attribute("localToWorld", &D::localToWorld, "mat4: from this node to the world")
+        .attribute("localToScreen", &D::localToScreen, "mat4: from this node to clip space")
+        .attribute("cameraToWorld", &D::cameraToWorld, "mat4: from the camera to the world")
+        .attribute("cameraToScreen", &D::cameraToScreen,
+                   "mat4: from the camera to clip space, the projection")
+        .attribute("screenToCamera", &D::screenToCamera, "mat4: from clip space to the camera")
+        .attribute("worldToScreen", &D::worldToScreen, "mat4: from the world to clip space")
         .attribute("worldPos", &D::worldPos, "vec3: position of this node in the world")
         .attribute("worldDir", &D::worldDir, "vec3: direction of this node's -z axis in the world")
         .attribute("screen", &D::screen,
-                   "a target; its frame is used instead of the screen's, without projection")
-        .attribute("module", &D::module, "sets the uniforms of the first program with this module")
+                   "a node, 'this', '$o' or a flag: its frame is meant where the names say screen, "
+                   "without projection")
+        .attribute(
+            "module", &D::module,
+            "sets those of the first program with this module; else, those of the current program")
         .build([](const D& d, BuildContext&) { return std::make_shared<SetTransforms>(d); });
 }
 

@@ -101,7 +101,8 @@ void declareShowInfo(Registry& registry) {
     auto info = registry.resource<ShowInfo, D, SceneTask>(
         "showInfo", "Writes the frame rate and other facts on the picture.");
     declareText<D>(info);
-    info.attribute("maxLines", static_cast<Attr<int> D::*>(&D::maxLines),
+    info.example(R"(<showInfo fontSize="16" fontColor="255,255,255"/>)")
+        .attribute("maxLines", static_cast<Attr<int> D::*>(&D::maxLines),
                    "lines to leave room for above the bottom")
         .atLeast(0)
         .clamped()

@@ -51,6 +51,7 @@ void declareScheduler(Registry& registry) {
     registry
         .resource<MultithreadScheduler, D, Scheduler>(
             "multithreadScheduler", "Runs the tasks of a frame, and prefetches for the next ones.")
+        .example(R"(<multithreadScheduler name="defaultScheduler" nthreads="2"/>)")
         .attribute("nthreads", &D::nthreads, "worker threads beside the main one")
         .atLeast(0)
         .atMost(kMaxThreads)
@@ -65,7 +66,7 @@ void declareScheduler(Registry& registry) {
         .atLeast(0)
         .clamped()
         .attribute("prefetchQueue", &D::prefetchQueue,
-                   "tasks of future frames that may wait; needed with fps or prefetchRate")
+                   "tasks of future frames that may wait; needed with 'fps' or 'prefetchRate'")
         .atLeast(0)
         .clamped()
         .check(checkQueue)

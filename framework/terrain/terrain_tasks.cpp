@@ -152,7 +152,8 @@ private:
     bool culling_;
 };
 
-constexpr const char* kTerrainSummary = "'target.field id' of a terrain, or the name of one";
+constexpr const char* kTerrainSummary =
+    "the terrain: by its key at a node, such as 'this.terrain', or its own name";
 
 template <class T>
 void declareUpdate(Registry& registry, const char* tag, const char* summary) {
@@ -166,21 +167,26 @@ void declareUpdate(Registry& registry, const char* tag, const char* summary) {
 } // namespace
 
 void declareTerrainTasks(Registry& registry) {
-    declareUpdate<UpdateTerrain>(registry, "updateTerrain",
-                                 "Divides the quadtree of a terrain for the camera.");
-    constexpr const char* kSamplers = "Has the tiles of a terrain's quads produced.";
-    declareUpdate<UpdateTileSamplers>(registry, "updateTileSamplers", kSamplers);
-    declareUpdate<UpdateTileSamplers>(registry, "updateUniform", kSamplers);
+    declareUpdate<UpdateTerrain>(
+        registry, "updateTerrain",
+        "Divides a terrain where the camera is near. Comes first in a frame.");
+    declareUpdate<UpdateTileSamplers>(registry, "updateTileSamplers",
+                                      "Has the tiles produced that the tile samplers of a "
+                                      "terrain's node need. Comes after updateTerrain.");
+    declareUpdate<UpdateTileSamplers>(registry, "updateUniform", "The same as updateTileSamplers.");
 
     using D = DrawTerrainDescription;
     registry
-        .resource<DrawTerrain, D, SceneTask>("drawTerrain",
-                                             "Draws a mesh for each leaf of a terrain's quadtree.")
+        .resource<DrawTerrain, D, SceneTask>(
+            "drawTerrain", "Draws a mesh for each of the smallest squares of a terrain.")
+        .example(R"(<drawTerrain name="this.terrain" mesh="this.grid" culling="true"/>)")
         .attribute("name", &D::field, kTerrainSummary)
         .required()
-        .attribute("mesh", &D::mesh, "'target.mesh id', or 'm' for the resource 'm.mesh'")
+        .attribute("mesh", &D::mesh,
+                   "the mesh of a quad: by its key at a node, such as 'this.grid', or 'm' for the "
+                   "resource 'm.mesh'")
         .required()
-        .attribute("culling", &D::culling, "leaves out quads that the camera can't see")
+        .attribute("culling", &D::culling, "leaves out what the camera can't see")
         .build([](const D& d, BuildContext&) { return std::make_shared<DrawTerrain>(d); });
 }
 

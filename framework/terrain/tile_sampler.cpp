@@ -195,20 +195,22 @@ std::shared_ptr<TileSamplerZ> buildZ(const D& d, BuildContext& context) {
 /// What both have.
 template <class Builder>
 auto&& addAttributes(Builder&& builder) {
-    return builder.attribute("sampler", &D::sampler, "the samplerTile variable of the shaders")
+    return builder
+        .attribute("sampler", &D::sampler, "name of the uniform of type samplerTile in the shaders")
         .required()
         .attribute("producer", &D::producer, "who makes the tiles")
         .required()
         .attribute("terrains", &D::terrains, "terrains of a tile map")
         .planned()
         .onDemand()
-        .attribute("storeLeaf", &D::storeLeaf, "leaves need tiles")
+        .attribute("storeLeaf", &D::storeLeaf, "whether the smallest squares need tiles")
         .trueUnlessFalse()
-        .attribute("storeParent", &D::storeParent, "divided quads need tiles")
+        .attribute("storeParent", &D::storeParent, "whether divided squares need tiles")
         .trueUnlessFalse()
-        .attribute("storeInvisible", &D::storeInvisible, "quads outside of the view need tiles")
+        .attribute("storeInvisible", &D::storeInvisible,
+                   "whether squares outside of the view need tiles")
         .trueUnlessFalse()
-        .attribute("async", &D::async, "ancestors stand in until tiles are there")
+        .attribute("async", &D::async, "coarser tiles stand in until tiles are there")
         .planned();
 }
 
@@ -216,9 +218,13 @@ auto&& addAttributes(Builder&& builder) {
 
 void declareTileSampler(Registry& registry) {
     addAttributes(
-        registry.resource<TileSampler, D>(
-            "tileSampler", "Gives the quads of a terrain tiles, and shaders access to them."))
-        .attribute("mipmap", &D::mipmap, "with async, parts of ancestors may be drawn")
+        registry
+            .resource<TileSampler, D>(
+                "tileSampler", "Gives the squares of a terrain their tiles of a producer, and "
+                               "shaders access to them. Stands in the node of the terrain.")
+            .example(
+                R"(<tileSampler name="normalSampler" sampler="normalSampler" producer="normals"/>)"))
+        .attribute("mipmap", &D::mipmap, "with 'async': parts of coarser tiles may be drawn")
         .planned()
         .build(build);
     addAttributes(registry.resource<TileSamplerZ, D>(

@@ -117,8 +117,11 @@ void declareElevationProducer(Registry& registry) {
         .resource<ElevationProducer, D, TileProducer>(
             "elevationProducer",
             "Elevations of a terrain: the parent's, upsampled, plus residuals, plus noise.")
+        .example(
+            R"(<elevationProducer name="elevations" cache="elevationCache" noise="0,150,88,50,27,14.5,7.6"/>)")
         .attribute("cache", &D::cache,
-                   "where the tiles are; a gpuTileStorage of floats, tileSize k gridSize + 5")
+                   "where the tiles are; a gpuTileStorage of floats, whose tileSize is a multiple "
+                   "of 'gridSize', plus 5")
         .required()
         .attribute("residuals", &D::residuals, "producer of what is added to upsampled elevations")
         .attribute("upsampleProg", &D::upsampleProg, "shader that upsamples and adds")
@@ -129,7 +132,7 @@ void declareElevationProducer(Registry& registry) {
         .atMost(16384)
         .attribute("noise", &D::noise, "amplitude of the noise of each level; none beyond")
         .unit("m")
-        .attribute("flip", &D::flip, "the diagonals of the mesh follow the ridges")
+        .attribute("flip", &D::flip, "whether the diagonals of the mesh follow the ridges")
         .attribute("face", &D::face,
                    "face of a planet, 1 to 6, for noise without seams; by default the last "
                    "character of the producer's name, if it is one of these")

@@ -86,6 +86,7 @@ void declareNormalProducer(Registry& registry) {
     registry
         .resource<NormalProducer, D, TileProducer>("normalProducer",
                                                    "Normals of a terrain, from its elevations.")
+        .example(R"(<normalProducer name="normals" cache="normalCache" elevations="elevations"/>)")
         .attribute("cache", &D::cache,
                    "where the tiles are; a gpuTileStorage with two channels, or four to keep the "
                    "parent's normals too; tileSize that of the elevations - 4")

@@ -197,7 +197,13 @@ void declareResidualProducer(Registry& registry) {
         "Elevations from a file: of the root tile, and for the others what is to be added to the "
         "level above.");
     declareAttributes(residuals);
-    residuals.child(part.declaration()).build(buildResiduals);
+    residuals
+        .example(
+            R"(<residualProducer name="residuals" cache="residualCache" file="DEM.dat" delta="2">
+    <residualProducer cache="residualCache" file="valley.dat"/>
+</residualProducer>)")
+        .child(part.declaration())
+        .build(buildResiduals);
 }
 
 } // namespace terrane

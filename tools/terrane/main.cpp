@@ -255,10 +255,10 @@ int test(const Registry& registry, const Arguments& a) {
 int dispatch(const CLI::App& app, Arguments& a) {
     if (!a.plugin.empty()) return fail(kWrongUsage, "--plugin is not built yet");
     if (app.got_subcommand("pack")) return fail(kWrongUsage, "'pack' is not built yet");
-    if (app.got_subcommand("new")) return makeNewArchive(a.name, std::cout, std::cerr);
     Registry registry;
     registerStandardTypes(registry);
     registerStandardPlugins(registry);
+    if (app.got_subcommand("new")) return makeNewArchive(registry, a.name, std::cout, std::cerr);
     if (app.got_subcommand("play")) return play(registry, a);
     if (app.got_subcommand("check")) return check(registry, a);
     if (app.got_subcommand("schema"))

@@ -3,12 +3,15 @@
 #include "environment.h"
 #include "render/context_attempt.h"
 #include "terrane_program.h"
+#include "xmllint.h"
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 
 using namespace terrane;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -201,15 +204,44 @@ TEST_CASE_FIXTURE(Terrane, "fixtures run in processes of their own and are repor
     CHECK(run("test %/f/good %/f/missing").status == 0);
 }
 
-TEST_CASE_FIXTURE(Terrane, "a new archive works at once") {
-    CHECK(run("new %/mine").status == 0);
-    CHECK(run("check %/mine").status == 0);
+TEST_CASE_FIXTURE(Terrane, "a new archive works at once, and its editor knows the schema") {
+    const Result made = run("new %/mine");
+    CHECK(made.status == 0);
+    contains(made.out, "terrane play");
+    CHECK(run("check --strict %/mine").status == 0);
     CHECK(run("play %/mine --headless --size 64x48 --frames 1").status == 0);
-    CHECK(run("new %/mine").status == 1); // nothing is overwritten
+    const Result again = run("new %/mine"); // nothing is overwritten
+    CHECK(again.status == 1);
+    contains(again.err, "exists already");
+
     const Result spaced = run("new '%/it'\\''s mine'");
     CHECK(spaced.status == 0);
     // The command can be copied.
     contains(spaced.out, "terrane play '" + (*this / "it'\\''s mine").string() + "' --headless");
+
+    const std::string archive = readFile(*this / "mine/archive.xml").value_or("");
+    contains(archive, "xsi:noNamespaceSchemaLocation=\"schema/terrane.xsd\"");
+    CHECK(fs::exists(*this / "mine/schema/terrane.rnc"));
+    contains(readFile(*this / "mine/schemas.xml").value_or(""), "schema/terrane.rnc");
+    if (test::Xmllint::installed()) {
+        const std::string file = (*this / "mine/archive.xml").string();
+        auto verdicts =
+            test::Xmllint::validate("--schema", *this / "mine/schema/terrane.xsd", {file});
+        CHECK(verdicts[file].valid);
+    }
+}
+
+TEST_CASE_FIXTURE(Terrane, "what tells an editor the schema may stand at the root of any file") {
+    writeColour("1.0, 1.0, 1.0");
+    write("node.xml", "<node xmlns:xsi='http://www.w3.org/2001/XMLSchema-instance'\n"
+                      "    xsi:noNamespaceSchemaLocation='terrane.xsd'/>");
+    std::string archive = kScene;
+    archive.insert(archive.find("</archive>"),
+                   "<node name='a'><node value='node'/><node xsi:nil='true'/></node>");
+    write("archive.xml", archive);
+    const Result checked = run("check %");
+    contains(checked.err, "no attribute 'xsi:nil'"); // elsewhere it is a mistake
+    CHECK(checked.out == "1 error, 0 warnings\n");
 }
 
 TEST_CASE_FIXTURE(Terrane, "schema writes each format, on request into files") {
