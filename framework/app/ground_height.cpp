@@ -50,6 +50,11 @@ glm::dvec3 toWorld(const TerrainNode& terrain, const glm::dvec2& local, double h
     return glm::dvec3(terrain.state().localToWorld * glm::dvec4(deformed, 1));
 }
 
+double heightInWorld(const TerrainNode& terrain, const glm::dvec2& local, double height) {
+    if (terrain.deformation().shape() != Deformation::Shape::flat) return height;
+    return toWorld(terrain, local, height).z;
+}
+
 bool isOlder(const TerrainNode& a, const TerrainNode& b) {
     const auto age = [](const TerrainNode& t) {
         return t.groundSample() ? t.groundSample()->frame + 1 : 0;
@@ -99,6 +104,12 @@ TerrainNode* groundBelowCamera(const std::vector<TerrainNode*>& terrains) {
     return below ? &measuredFor(*below, terrains) : nullptr;
 }
 
+double groundHeightInWorld(const TerrainNode& measured) {
+    const auto& sample = measured.groundSample();
+    return sample ? heightInWorld(measured, sample->place, measured.groundHeight())
+                  : measured.groundHeight();
+}
+
 void shareGroundHeight(const TerrainNode& measured, const std::vector<TerrainNode*>& terrains) {
     for (TerrainNode* terrain : terrains)
         if (terrain != &measured && isSamePlanet(*terrain, measured))
@@ -115,11 +126,14 @@ double highestGround(const std::vector<TerrainNode*>& terrains, const glm::dvec3
         const double away = glm::distance(toWorld(measured, sample.place, sample.height),
                                           toWorld(*terrain, local, sample.height));
         const TerrainQuad& quad = measuredQuadAt(*terrain, local);
-        if (!quad.measured) return sample.height + away; // as on a slope of 45 degrees
-        const double bound = std::max(quad.zmax, sample.height);
-        if (away > quad.l / 4) return bound;
-        // Three times as steep as the quad is on the whole.
-        return std::min(bound, sample.height + 3 * (quad.zmax - quad.zmin) / quad.l * away);
+        double highest = sample.height + away; // as on a slope of 45 degrees
+        if (quad.measured) {
+            highest = std::max(quad.zmax, sample.height);
+            // Three times as steep as the quad is on the whole.
+            const double steep = sample.height + 3 * (quad.zmax - quad.zmin) / quad.l * away;
+            if (away <= quad.l / 4) highest = std::min(highest, steep);
+        }
+        return heightInWorld(*terrain, local, highest);
     }
     return -std::numeric_limits<double>::infinity();
 }

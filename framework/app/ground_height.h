@@ -38,6 +38,11 @@ std::optional<TileElevation> groundElevation(const TerrainPlace& place,
 /// the camera is above, or the face of the same planet that was measured last. Null without any.
 TerrainNode* groundBelowCamera(const std::vector<TerrainNode*>& terrains);
 
+/// The height that a view controller takes for that of the ground below the camera, metres: of
+/// a flat terrain in the world, where its node may have put it higher; else above sphere or
+/// cylinder.
+double groundHeightInWorld(const TerrainNode& measured);
+
 /// Tells the other faces of a planet how high the ground is below the camera, so that they are
 /// divided as finely along its edges.
 void shareGroundHeight(const TerrainNode& measured, const std::vector<TerrainNode*>& terrains);

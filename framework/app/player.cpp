@@ -18,6 +18,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 namespace terrane {
 
 namespace fs = std::filesystem;
@@ -165,9 +167,19 @@ bool Player::frame() {
     const Clock::time_point cleared = Clock::now();
     scene_->update(time_ * 1e6, elapsed_ * 1e6);
     const Clock::time_point updated = Clock::now();
-    const bool drawn = scene_->draw();
+    bool drawn = scene_->draw();
+    SchedulerStatistics tasks = scene_->scheduler()->statistics();
+    if (cameraJumped()) {
+        // Nearer to the ground there are finer tiles, which may be higher: a few times.
+        for (int i = 0; i < 4 && drawn && readGround(); ++i) {
+            drawn = drawAgain();
+            const SchedulerStatistics again = scene_->scheduler()->statistics();
+            tasks.kept += again.kept;
+            tasks.waiting = again.waiting;
+        }
+    }
     const Clock::time_point end = Clock::now();
-    const SchedulerStatistics tasks = scene_->scheduler()->statistics();
+    rememberCamera();
     followGround();
     if (options_.allocations) metrics_.allocationsLastFrame = options_.allocations() - allocations;
 
@@ -217,10 +229,18 @@ void Player::advanceTime() {
 void Player::placeCamera() {
     // A camera that turns or jumps may be where the ground is not known yet.
     controller_->highestGround = -std::numeric_limits<double>::infinity();
-    if (frames_ > 0) controller_->highestGround = highestGround(terrains_, controller_->position());
+    if (scene_->frameNumber() > 0)
+        controller_->highestGround = highestGround(terrains_, controller_->position());
     if (SceneNode* const camera = scene_->camera())
         camera->localToParent = controller_->cameraToWorld();
     scene_->cameraToScreen = controller_->cameraToScreen(target_->width(), target_->height());
+}
+
+bool Player::drawAgain() {
+    placeCamera();
+    clear();
+    scene_->update(time_ * 1e6, elapsed_ * 1e6);
+    return scene_->draw();
 }
 
 void Player::clear() {
@@ -233,10 +253,61 @@ void Player::clear() {
     screen.state.scissor.enabled = scissor;
 }
 
+TerrainPlace Player::placeBelowCamera() const {
+    const TerrainNode* const terrain = terrainBelowCamera(terrains_);
+    if (!terrain) return {};
+    return {terrain, glm::dvec2(terrain->state().localCamera)};
+}
+
+void Player::rememberCamera() {
+    const TerrainPlace place = placeBelowCamera();
+    lastStep_ =
+        place.terrain == lastPlace_.terrain ? place.local - lastPlace_.local : glm::dvec2(0);
+    lastPlace_ = place;
+    const glm::dvec3 camera(scene_->cameraToWorld()[3]);
+    lastDistance_ = glm::distance(camera, lastCamera_);
+    lastCamera_ = camera;
+}
+
+// So that what was read back of the ground may be of another place; steady flights foresee theirs.
+bool Player::cameraJumped() const {
+    const TerrainPlace place = placeBelowCamera();
+    if (!place.terrain || frames_ == 0) return frames_ == 0;
+    const double distance = glm::distance(glm::dvec3(scene_->cameraToWorld()[3]), lastCamera_);
+    bool steady = distance <= 2 * lastDistance_; // the next face of a planet, as a rule
+    if (place.terrain == lastPlace_.terrain) {
+        const glm::dvec2 step = place.local - lastPlace_.local;
+        steady = glm::distance(step, lastStep_) <= 0.5 * glm::length(step);
+    }
+    // Ground can hardly rise more steeply.
+    return !steady && controller_->height() - controller_->groundHeight < 2 * distance;
+}
+
+// Of a camera that has jumped, from the tiles of this frame, at once: what is read back in passing
+// would come some frames later. Returns whether the camera has to be elsewhere.
+bool Player::readGround() {
+    TerrainNode* const terrain = terrainBelowCamera(terrains_);
+    if (!terrain || !terrain->isBelowCamera(terrain->root())) return false;
+    const bool followed =
+        std::any_of(samplers_.begin(), samplers_.end(), [&](const TileSampler* sampler) {
+            return sampler->terrain() == terrain && sampler->followsCamera();
+        });
+    if (!followed) return false;
+    const glm::dvec2 local(terrain->state().localCamera);
+    const auto ground = groundElevation({terrain, local}, samplers_);
+    if (!ground) return false;
+    terrain->setGroundSample({ground->elevation, local, scene_->frameNumber() - 1});
+    followGround();
+    const glm::dvec3 drawn(scene_->cameraToWorld()[3]);
+    placeCamera();
+    const double above = std::max(controller_->height() - controller_->groundHeight, 0.0);
+    return glm::distance(controller_->position(), drawn) > 0.01 * above;
+}
+
 void Player::followGround() {
     const TerrainNode* const terrain = groundBelowCamera(terrains_);
     if (!terrain) return;
-    controller_->groundHeight = terrain->groundHeight();
+    controller_->groundHeight = groundHeightInWorld(*terrain);
     shareGroundHeight(*terrain, terrains_);
 }
 

@@ -62,7 +62,8 @@ public:
 
     /// There is something to draw: what follows may be called.
     bool drawable() const { return controller_ != nullptr; }
-    /// Draws the next frame. False when there is nothing to draw.
+    /// Draws the next frame; again, if a camera that has jumped turns out to be too near to the
+    /// ground, or far from it. False when there is nothing to draw.
     bool frame();
     /// Draws frames until the picture is complete. False when it is not after so many, or when
     /// there is nothing to draw.
@@ -127,7 +128,12 @@ private:
     void advanceTime();
     void placeCamera();
     void clear();
+    bool drawAgain();
     void followGround();
+    TerrainPlace placeBelowCamera() const;
+    bool cameraJumped() const;
+    bool readGround();
+    void rememberCamera();
     bool isSettled() const;
     void countQuietFrame(bool nothingMade);
 
@@ -157,6 +163,10 @@ private:
     int quietFrames_ = 0;
     View lastView_;
     double lastGround_ = 0;
+    TerrainPlace lastPlace_; ///< below the camera
+    glm::dvec2 lastStep_{0};
+    glm::dvec3 lastCamera_{0};
+    double lastDistance_ = 0; ///< of the camera's last step, metres
 };
 
 } // namespace terrane

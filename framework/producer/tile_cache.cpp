@@ -209,6 +209,7 @@ void TileCache::unlink(Tile& tile) {
 }
 
 int TileCache::invalidateTile(TileProducer& producer, const TileId& id) {
+    ++invalidations_;
     const TileKey key{producer.serial(), id};
     const auto evicted = evicted_.find(key);
     if (const auto task = evicted == evicted_.end() ? nullptr : evicted->second.lock())
@@ -219,6 +220,7 @@ int TileCache::invalidateTile(TileProducer& producer, const TileId& id) {
 }
 
 int TileCache::invalidateTiles(TileProducer& producer) {
+    ++invalidations_;
     int count = 0;
     for (const auto& [key, tile] : tiles_) {
         if (key.producer != producer.serial()) continue;

@@ -101,6 +101,8 @@ public:
     /// how many of them are here.
     int invalidateTile(TileProducer& producer, const TileId& id);
     int invalidateTiles(TileProducer& producer);
+    /// Counts the calls of these two, for those who keep what they know of tiles that are gone.
+    std::uint64_t invalidations() const { return invalidations_; }
 
     Statistics statistics();
     /// Tiles without users plus free slots: what may be asked for without a refusal.
@@ -164,6 +166,7 @@ private:
     std::size_t sweepAt_ = 64;
 
     unsigned serial_ = 0;
+    std::uint64_t invalidations_ = 0;
 
     Statistics counts_;
     std::unordered_set<TileKey, TileKeyHash> refused_; ///< since clearShortage()

@@ -94,6 +94,7 @@ void TerrainNode::compareWithParent(const TerrainQuad& quad) {
 
 void TerrainNode::updateQuad(TerrainQuad& quad, Visibility ofParent) {
     if (!quad.measured) inheritElevations(quad);
+    quad.doubtful = false;
     quad.visibility = ofParent == Visibility::partial
                           ? deformation().visibility(state_.viewer, wholeBox(quad))
                           : ofParent;
@@ -137,9 +138,13 @@ void TerrainNode::updateLeaf(TerrainQuad& quad) {
     const bool fewer = quad.zmin > zmin_ || quad.zmax < zmax_;
     if (fewer && quad.visibility == Visibility::partial)
         quad.visibility = deformation().visibility(state_.viewer, quad.box());
-    if (!quad.isVisible()) return;
-    quad.occluded = horizon_.addOccluder(quad.box());
-    if (quad.occluded) quad.visibility = Visibility::none;
+    if (quad.isVisible()) {
+        QuadBox box = quad.box();
+        if (!quad.measured) box.zmin = zmin_; // what is only likely must not hide others
+        quad.occluded = horizon_.addOccluder(box);
+        if (quad.occluded) quad.visibility = Visibility::none;
+    }
+    quad.doubtful = !quad.isVisible() && !quad.measured && fewer;
 }
 
 bool TerrainNode::isBelowCamera(const TerrainQuad& quad) const {

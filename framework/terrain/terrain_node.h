@@ -89,7 +89,8 @@ public:
     /// levels may be higher or lower: whether it is split does not depend on it, but on the
     /// elevations of the whole terrain, which grow with whatever is measured beyond; and its
     /// children inherit it with a margin, twice what was measured anywhere as the difference of a
-    /// quad from its parent. Ignored when it is no range of numbers.
+    /// quad from its parent. That is likely, not certain: what is not drawn because of it is
+    /// doubtful until it is measured. Ignored when it is no range of numbers.
     void setElevations(int index, double zmin, double zmax);
     /// What was measured of a quad is out of date.
     void forgetElevations(int index) { quads_[index].measured = false; }

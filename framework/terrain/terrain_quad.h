@@ -27,6 +27,9 @@ struct TerrainQuad {
 
     Visibility visibility = Visibility::none;
     bool occluded = false; ///< hidden behind nearer ground
+    /// A leaf that would be visible, were its ground outside of what it inherited: somebody should
+    /// measure it soon.
+    bool doubtful = false;
 
     int parent = -1;     ///< index; -1 for the root
     int firstChild = -1; ///< index of the first of four: lower left, lower right, upper left, upper

@@ -7,6 +7,8 @@
 #include "scene/scene_manager.h"
 #include "terrain/tile_sampler_z.h"
 
+#include <utility>
+
 namespace terrane {
 
 namespace {
@@ -36,6 +38,13 @@ const Tile* TileSampler::held(const TerrainQuad& quad) const {
     if (quad.index >= static_cast<int>(held_.size())) return nullptr;
     const Held& held = held_[quad.index];
     return held.generation == quad.generation ? held.tile : nullptr;
+}
+
+bool TileSampler::wasMadeAgain(int index) {
+    Held& held = held_[index];
+    const Task::Date date = held.tile->done() ? held.tile->task()->completionDate() : 0;
+    const Task::Date before = std::exchange(held.date, date);
+    return before != 0 && before != date;
 }
 
 void TileSampler::update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) {
@@ -81,7 +90,7 @@ void TileSampler::acquire(const TerrainNode& terrain) {
         Tile* const tile = producer().getTile(tileOf(quad));
         refused_ |= tile == nullptr;
         if (!tile) continue;
-        held_[quad.index] = {tile, quad.generation};
+        held_[quad.index] = {.tile = tile, .generation = quad.generation};
         heldQuads_.push_back(quad.index);
     }
 }

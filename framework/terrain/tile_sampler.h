@@ -58,12 +58,16 @@ protected:
     const Tile* held(const TerrainQuad& quad) const;
     /// Indices of the quads with a tile.
     const std::vector<int>& heldQuads() const { return heldQuads_; }
+    /// Whether the tile of a quad of heldQuads() was made again since the last call for it, while
+    /// it was held.
+    bool wasMadeAgain(int index);
 
 private:
     /// The tile held for the quad at this place of the pool.
     struct Held {
         Tile* tile = nullptr;
         std::uint32_t generation = 0;
+        Task::Date date = 0; ///< of the data when wasMadeAgain() was last asked; 0: none yet
     };
 
     void release(const TerrainNode& terrain);

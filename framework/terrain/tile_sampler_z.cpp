@@ -5,6 +5,7 @@
 #include "scene/scene_manager.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -20,11 +21,13 @@ TileSamplerZ::~TileSamplerZ() {
 
 bool TileSamplerZ::needs(const TerrainNode& terrain, const TerrainQuad& quad) const {
     if (TileSampler::needs(terrain, quad)) return true;
+    if (quad.doubtful && (held(quad) || isChosen(quad))) return true;
     const bool below = terrain.isBelowCamera(quad) || terrain.isSoonBelowCamera(quad);
     return below && producer().hasTile({quad.level, quad.tx, quad.ty});
 }
 
 void TileSamplerZ::update(TerrainNode& terrain, SceneManager& scene, FrameBuilder& frame) {
+    chooseDoubtful(terrain);
     TileSampler::update(terrain, scene, frame);
     updatedIn_ = scene.frameNumber();
     readback_->beginFrame(scene.frameNumber());
@@ -33,7 +36,41 @@ void TileSamplerZ::update(TerrainNode& terrain, SceneManager& scene, FrameBuilde
     if (readback_->isAsked()) frame.require(readback_->task());
 }
 
+// The nearest ones first.
+void TileSamplerZ::chooseDoubtful(const TerrainNode& terrain) {
+    chosenCount_ = 0;
+    doubting_ = false;
+    // Tiles that are drawn may need some of the room.
+    const int room = producer().cache().room() / 2;
+    const int most = std::min(room, static_cast<int>(chosen_.size()));
+    terrain.forEachLeaf([&](const TerrainQuad& quad) {
+        if (!quad.doubtful || !producer().hasTile({quad.level, quad.tx, quad.ty})) return;
+        const bool has = this->terrain() == &terrain && held(quad);
+        if (!has && chosenCount_ == most) return;
+        doubting_ = true;
+        if (!has) chosen_[chosenCount_++] = quad.index;
+    });
+}
+
+bool TileSamplerZ::isChosen(const TerrainQuad& quad) const {
+    const auto end = chosen_.begin() + chosenCount_;
+    return std::find(chosen_.begin(), end, quad.index) != end;
+}
+
+// Tiles that are not held may be made differently, too, when they are needed again.
+void TileSamplerZ::forgetUnheld(TerrainNode& terrain) {
+    for (int i = 0; i < terrain.quads().capacity(); ++i) {
+        const TerrainQuad& quad = terrain.quads()[i];
+        if (quad.isAlive() && quad.measured && !held(quad)) terrain.forgetElevations(i);
+    }
+}
+
 void TileSamplerZ::measureQuads(TerrainNode& terrain) {
+    const std::uint64_t invalidations = producer().cache().invalidations();
+    bool changed = std::exchange(invalidations_, invalidations) != invalidations;
+    for (const int index : heldQuads())
+        changed |= wasMadeAgain(index);
+    if (changed) forgetUnheld(terrain);
     for (const int index : heldQuads()) {
         const Tile* const tile = held(terrain.quads()[index]);
         const ElevationReadback::Range* const range =
@@ -45,10 +82,22 @@ void TileSamplerZ::measureQuads(TerrainNode& terrain) {
     }
 }
 
+void TileSamplerZ::takeSample(TerrainNode& terrain, std::uint64_t frame) {
+    if (!std::exchange(point_.arrived, false)) return;
+    // Of a camera that has jumped, somebody may have a newer sample meanwhile.
+    const auto& known = terrain.groundSample();
+    const glm::dvec2 camera(terrain.state().localCamera);
+    const glm::dvec2 next = moving_ ? camera + (camera - camera_) : camera;
+    constexpr double kAsNear = 1; // metres
+    if (known && terrain.state().cameraIsLocal &&
+        glm::distance(point_.place, next) > glm::distance(known->place, next) + kAsNear)
+        return;
+    terrain.setGroundSample({point_.elevation, point_.place, frame});
+}
+
 void TileSamplerZ::followGround(TerrainNode& terrain, std::uint64_t frame) {
     waiting_ = false;
-    if (std::exchange(point_.arrived, false))
-        terrain.setGroundSample({point_.elevation, point_.place, frame});
+    takeSample(terrain, frame);
     terrain.setCameraSoon(std::nullopt);
     if (!terrain.state().cameraIsLocal) {
         moving_ = false;

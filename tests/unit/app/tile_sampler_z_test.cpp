@@ -226,9 +226,9 @@ TEST_CASE("answers come in the fourth frame after a tile was made, sixteen at a 
     }
     // Frame 0 makes tiles, frame 1 finds them done and reads, frame 4 has the answers.
     CHECK(std::vector<int>(measured.begin(), measured.begin() + 4) == std::vector<int>(4, 0));
-    CHECK(std::vector<bool>(ground.begin(), ground.begin() + 4) == std::vector<bool>(4, false));
+    // But for the ground below the camera nobody waits: it is read at once after a jump.
+    CHECK(ground[0]);
     CHECK(measured[4] == ElevationReadback::kMost - 1); // the ground below the camera was one
-    CHECK(ground[4]);
     for (std::size_t i = 5; i < measured.size(); ++i)
         CHECK(measured[i] <= measured[i - 1] + ElevationReadback::kMost);
     CHECK(readings.load() >= 4); // never two a frame
@@ -277,7 +277,7 @@ TEST_CASE("tiles that are made again are read again") {
     countReadings(player, readings);
     player.resources()->get<TileProducer>("elevations1")->invalidateTiles();
     REQUIRE(player.frame());
-    CHECK(measuredQuads(hills.terrain()) < measured); // what was known may be wrong now
+    CHECK(measuredQuads(hills.terrain()) == 0); // even of quads without tiles: it may be wrong now
     REQUIRE(player.drawUntilComplete());
     CHECK(readings.load() >= measured / ElevationReadback::kMost);
     CHECK(player.frames() > frames + 4);
@@ -319,6 +319,97 @@ TEST_CASE("nothing visible is left out because of what was measured") {
         fewer += left < visibleLeaves(plain.terrain()) ? 1 : 0;
     }
     CHECK(fewer > 2);
+}
+
+TEST_CASE("ground that nothing seen so far was as rough as is not left out of a picture") {
+    // Fine levels are far rougher than the coarse ones, of which the margins come.
+    const std::string noise = "noise='100,-80,60,30,15,8,4'", rough = "noise='60,-1,1,1,1,1,70'";
+    Hills measuring(Hills::Shape::flat, {{noise, rough}});
+    REQUIRE(measuring.player().load());
+    Hills plain(Hills::Shape::flat, {{noise, rough}, {"tileSamplerZ", "tileSampler"}});
+    REQUIRE(plain.player().load());
+    for (int i = 0; i < 9; ++i) { // from so high that they are all there is
+        measuring.look({.x0 = -600.0 + 600 * (i % 3), .y0 = -600.0 + 600 * (i / 3), .d = 300});
+        REQUIRE(measuring.player().drawUntilComplete());
+    }
+    int doubts = 0;
+    for (int i = 0; i < 8; ++i) {
+        CAPTURE(i);
+        const View view{.x0 = -600.0 + 150 * i, .y0 = 40, .theta = 80, .phi = 45.0 * i, .d = 60};
+        measuring.look(view);
+        for (int frame = 0; frame < 200 && !measuring.player().complete(); ++frame) {
+            REQUIRE(measuring.player().frame());
+            forEachQuad(measuring.terrain(), [&](const TerrainQuad& q) { doubts += q.doubtful; });
+        }
+        REQUIRE(measuring.player().complete());
+        forEachQuad(measuring.terrain(), [&](const TerrainQuad& q) { CHECK_FALSE(q.doubtful); });
+        plain.look(view);
+        for (int frame = 0; frame < 2; ++frame) {
+            plain.assumeGround(measuring.terrain().groundHeight());
+            REQUIRE(plain.player().frame());
+        }
+        CHECK(plain.player().scene()->cameraToWorld() ==
+              measuring.player().scene()->cameraToWorld());
+        CHECK(plain.player().capture().bytes == measuring.player().capture().bytes);
+    }
+    CHECK(doubts > 0);
+}
+
+TEST_CASE("the first picture, and that after a jump, is taken from where the camera will stay") {
+    for (const auto shape : {Hills::Shape::flat, Hills::Shape::planet}) {
+        CAPTURE(static_cast<int>(shape));
+        Hills hills(shape);
+        Player& player = hills.player();
+        REQUIRE(player.load());
+        for (int i = 0; i < 12; ++i) {
+            CAPTURE(i);
+            View view{.x0 = 700 * std::cos(2.0 * i),
+                      .y0 = 700 * std::sin(3.0 * i + 1),
+                      .theta = 80,
+                      .phi = 50.0 * i,
+                      .d = 20};
+            if (shape == Hills::Shape::planet) view.x0 = 110.0 * i, view.y0 = -75 + 13.0 * i;
+            hills.look(view);
+            REQUIRE(player.frame());
+            const glm::dvec3 at(player.scene()->cameraToWorld()[3]);
+            REQUIRE(player.drawUntilComplete());
+            const glm::dvec3 stays(player.scene()->cameraToWorld()[3]);
+            CHECK(glm::distance(at, stays) < 0.6);
+        }
+    }
+}
+
+TEST_CASE("a flat terrain that its node has lifted carries the camera with it") {
+    const View view{.x0 = -300, .y0 = -200, .theta = 83, .phi = 23, .d = 60};
+    std::vector<glm::dvec3> cameras;
+    std::vector<Image> pictures;
+    for (const char* const edit : {"", "<translate x='0' y='0' z='730'/>"}) {
+        Hills hills(Hills::Shape::flat,
+                    {{"<node name='ground1' flags='ground'>",
+                      std::string("<node name='ground1' flags='ground'>") + edit}});
+        REQUIRE(hills.player().load());
+        hills.look(view);
+        REQUIRE(hills.player().drawUntilComplete());
+        cameras.emplace_back(hills.player().scene()->cameraToWorld()[3]);
+        pictures.push_back(hills.player().capture());
+    }
+    CHECK(glm::distance(cameras[0] + glm::dvec3(0, 0, 730), cameras[1]) < 1e-6);
+    CHECK(comparePictures(pictures[0], pictures[1]).share <= 0.002); // floats in the shader
+}
+
+TEST_CASE("a camera that is somewhere else in each frame is never in a hill") {
+    Hills hills;
+    Player& player = hills.player();
+    REQUIRE(player.load());
+    for (int i = 0; i < kFlightFrames; ++i) {
+        CAPTURE(i);
+        hills.look({.x0 = 850 * std::cos(1.9 * i),
+                    .y0 = 850 * std::sin(2.6 * i),
+                    .theta = 86,
+                    .phi = 77.0 * i,
+                    .d = 12});
+        CHECK(heightAboveGround(player).first > 0.3);
+    }
 }
 
 TEST_CASE("a flight that would end in a hill stays above it") {
