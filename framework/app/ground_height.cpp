@@ -99,6 +99,10 @@ std::optional<TerrainPlace> terrainPlace(const std::vector<TerrainNode*>& terrai
     return std::nullopt;
 }
 
+glm::dvec3 inWorld(const TerrainPlace& place, double height) {
+    return toWorld(*place.terrain, place.local, height);
+}
+
 TerrainNode* groundBelowCamera(const std::vector<TerrainNode*>& terrains) {
     TerrainNode* const below = terrainBelowCamera(terrains);
     return below ? &measuredFor(*below, terrains) : nullptr;

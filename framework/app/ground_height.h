@@ -30,6 +30,9 @@ glm::dvec3 inFrameOf(const TerrainNode& terrain, const glm::dvec3& world);
 std::optional<TerrainPlace> terrainPlace(const std::vector<TerrainNode*>& terrains, double x,
                                          double y);
 
+/// The point of the world at a place, so high above the undisturbed ground. As of the last frame.
+glm::dvec3 inWorld(const TerrainPlace& place, double height);
+
 /// The elevation there by the elevation tiles of the terrain; see elevationAt().
 std::optional<TileElevation> groundElevation(const TerrainPlace& place,
                                              const std::vector<TileSampler*>& samplers);

@@ -259,28 +259,24 @@ TerrainPlace Player::placeBelowCamera() const {
     return {terrain, glm::dvec2(terrain->state().localCamera)};
 }
 
-void Player::rememberCamera() {
+glm::dvec3 Player::pointBelowCamera() const {
     const TerrainPlace place = placeBelowCamera();
-    lastStep_ =
-        place.terrain == lastPlace_.terrain ? place.local - lastPlace_.local : glm::dvec2(0);
-    lastPlace_ = place;
-    const glm::dvec3 camera(scene_->cameraToWorld()[3]);
-    lastDistance_ = glm::distance(camera, lastCamera_);
-    lastCamera_ = camera;
+    return place.terrain ? inWorld(place, 0) : glm::dvec3(0);
 }
 
-// So that what was read back of the ground may be of another place; steady flights foresee theirs.
+void Player::rememberCamera() {
+    const glm::dvec3 below = pointBelowCamera();
+    belowBefore_ = frames_ == 0 ? below : below_;
+    below_ = below;
+}
+
+// So that what was read back of the ground is of another place than where the camera would have
+// gone on to, and ground that rises steeply may be as high.
 bool Player::cameraJumped() const {
-    const TerrainPlace place = placeBelowCamera();
-    if (!place.terrain || frames_ == 0) return frames_ == 0;
-    const double distance = glm::distance(glm::dvec3(scene_->cameraToWorld()[3]), lastCamera_);
-    bool steady = distance <= 2 * lastDistance_; // the next face of a planet, as a rule
-    if (place.terrain == lastPlace_.terrain) {
-        const glm::dvec2 step = place.local - lastPlace_.local;
-        steady = glm::distance(step, lastStep_) <= 0.5 * glm::length(step);
-    }
-    // Ground can hardly rise more steeply.
-    return !steady && controller_->height() - controller_->groundHeight < 2 * distance;
+    if (frames_ == 0) return true;
+    const double astray = glm::length(pointBelowCamera() - 2.0 * below_ + belowBefore_);
+    constexpr double kSteep = 2, kFramesLate = PixelReadback::kLatency + 1;
+    return controller_->height() - controller_->groundHeight < kSteep * kFramesLate * astray;
 }
 
 // Of a camera that has jumped, from the tiles of this frame, at once: what is read back in passing

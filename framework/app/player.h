@@ -131,6 +131,7 @@ private:
     bool drawAgain();
     void followGround();
     TerrainPlace placeBelowCamera() const;
+    glm::dvec3 pointBelowCamera() const;
     bool cameraJumped() const;
     bool readGround();
     void rememberCamera();
@@ -163,10 +164,7 @@ private:
     int quietFrames_ = 0;
     View lastView_;
     double lastGround_ = 0;
-    TerrainPlace lastPlace_; ///< below the camera
-    glm::dvec2 lastStep_{0};
-    glm::dvec3 lastCamera_{0};
-    double lastDistance_ = 0; ///< of the camera's last step, metres
+    glm::dvec3 below_{0}, belowBefore_{0}; ///< the camera of the last frame, and of that before
 };
 
 } // namespace terrane
