@@ -2,10 +2,10 @@
 #include "render/initial_uniform_elements.h"
 
 #include "core/text.h"
-#include "resource/attribute_place.h"
 #include "resource/registry.h"
 
 #include <array>
+#include <span>
 #include <utility>
 
 namespace terrane {
@@ -134,12 +134,6 @@ void checkVector(const VectorElement& d, Diagnostics& diagnostics) {
                           "<uniformMatrix...> or <uniformSampler>",
                           diagnostics);
     warnOfRest(d, vectorTag(d.tag), diagnostics);
-    constexpr std::array names{"x", "y", "z", "w"};
-    for (int i = type->rows; i < 4; ++i) {
-        if (!d.components()[i]->given) continue;
-        diagnostics.error("unknown-attribute", attributeName(d.components()[i]->place),
-                          "<" + d.tag + "> has no attribute '" + names[i] + "'");
-    }
 }
 
 // The numbers of a matrix, which are written row by row. Nothing, with a diagnostic, when they are
@@ -213,13 +207,42 @@ InitialUniform named(const Attr<std::string>& name, UniformValue value) {
 const char* const kNameSummary =
     "the uniform, such as 'u', 'views[3]', 'fog.tint', or 'Block.member'";
 
+std::vector<std::string> vectorTags(int rows) {
+    std::vector<std::string> tags;
+    for (const char* letter : {"f", "i", "ui", "vi", "b", "d"})
+        tags.push_back("uniform" + std::to_string(rows) + letter);
+    return tags;
+}
+
+// One declaration for each number of components, so that each has no more attributes than these.
+const ElementDeclaration& declareVector(Registry& registry, const std::string& tag,
+                                        std::vector<std::string> tags, int rows,
+                                        const std::string& what) {
+    using D = VectorElement;
+    auto element = registry.element<D>(tag, "Initial value of a " + what +
+                                                "; the letters say of which type, 'vi' as 'ui'.");
+    element.prefix(std::move(tags)).attribute("name", &D::uniform, kNameSummary).required();
+    struct Component {
+        const char* name;
+        Attr<double> D::*member;
+        const char* summary;
+    };
+    const Component components[] = {{"x", &D::x, rows == 1 ? "the number" : "first component"},
+                                    {"y", &D::y, "second component"},
+                                    {"z", &D::z, "third component"},
+                                    {"w", &D::w, "fourth component"}};
+    for (const Component& c : std::span(components).first(static_cast<std::size_t>(rows)))
+        element.attribute(c.name, c.member, c.summary).orInfinite();
+    return element.check(checkVector).declaration();
+}
+
 } // namespace
 
 std::vector<std::string> vectorUniformTags() {
     std::vector<std::string> tags;
-    for (const char* letter : {"f", "d", "i", "b", "ui", "vi"}) {
-        for (const char rows : {'1', '2', '3', '4'})
-            tags.push_back(std::string("uniform") + rows + letter);
+    for (int rows = 1; rows <= 4; ++rows) {
+        const std::vector<std::string> some = vectorTags(rows);
+        tags.insert(tags.end(), some.begin(), some.end());
     }
     return tags;
 }
@@ -257,25 +280,16 @@ std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry
             .attribute("stage", &SubroutineElement::stage, "where the uniform is", kStageWords)
             .required()
             .declaration();
-    const auto& vector =
-        registry
-            .element<VectorElement>("uniform",
-                                    "Initial value of a scalar or vector: uniformNX with 1 to 4 "
-                                    "components and X = f, d, i, b or ui.")
-            .prefix(vectorUniformTags())
-            .attribute("name", &VectorElement::uniform, kNameSummary)
-            .required()
-            .attribute("x", &VectorElement::x, "first component")
-            .orInfinite()
-            .attribute("y", &VectorElement::y, "second component")
-            .orInfinite()
-            .attribute("z", &VectorElement::z, "third component")
-            .orInfinite()
-            .attribute("w", &VectorElement::w, "fourth component")
-            .orInfinite()
-            .check(checkVector)
-            .declaration();
-    return {&matrix, &sampler, &subroutine, &vector};
+    std::vector<const ElementDeclaration*> all{&matrix, &sampler, &subroutine};
+    all.push_back(&declareVector(registry, "uniform1", vectorTags(1), 1, "number"));
+    for (int rows = 2; rows <= 4; ++rows) {
+        const std::string count = std::to_string(rows);
+        all.push_back(&declareVector(registry, "uniform" + count, vectorTags(rows), rows,
+                                     "vector of " + count + " numbers"));
+    }
+    // What else starts so is told together with the tags that there are.
+    all.push_back(&declareVector(registry, "uniform", {}, 4, "vector"));
+    return all;
 }
 
 std::optional<InitialSubroutine> initialSubroutine(const Child& child) {

@@ -83,7 +83,8 @@ struct ChildRule {
 struct ElementDeclaration {
     std::string tag;
     bool prefix = false;                ///< matches every tag that starts with `tag`
-    std::vector<std::string> knownTags; ///< with a prefix: those that people write, for schemas
+    std::vector<std::string> knownTags; ///< with a prefix: those that people write, for schemas;
+                                        ///< none for an element that only tells a mistake
     std::string summary;
     std::string example; ///< XML that works, for the manual
     std::string chapter; ///< of the manual

@@ -113,9 +113,10 @@ std::string ManualSections::write(const SchemaType& type) const {
             tags += (tags.empty() ? "" : ", ") + tag;
         text += tags + ".\n";
     }
-    text += parents(type) + attributes(type) + words(type) + children(type) + usedBy(type);
+    text += parents(type);
     if (!type.declaration->example.empty())
         text += "\n```xml\n" + type.declaration->example + "\n```\n";
+    text += attributes(type) + words(type) + children(type) + usedBy(type);
     for (const SchemaType* nested : locals(type))
         text += "\n" + write(*nested);
     return text;
@@ -181,25 +182,25 @@ std::string ManualSections::value(const SchemaType& type, const AttributeDeclara
     case ValueKind::real:
         return numberText("number", a);
     case ValueKind::integerList:
-        return numberText("integers", a);
+        return numberText("list of integers", a);
     case ValueKind::realList:
-        return numberText("numbers", a);
+        return numberText("list of numbers", a);
     case ValueKind::enumeration:
         return a.words.size() <= kWordsInCell ? alternatives(asCodes(a.words))
                                               : "a word, see below";
     case ValueKind::enumerationList:
-        return (a.words.size() <= kWordsInCell ? "of " + alternatives(asCodes(a.words))
-                                               : "words, see below");
+        return (a.words.size() <= kWordsInCell ? "list of " + alternatives(asCodes(a.words))
+                                               : "list of words, see below");
     case ValueKind::reference:
         return "name of " + referred(type, a);
     case ValueKind::referenceList:
-        return "names of " + referred(type, a);
+        return "list of names of " + referred(type, a);
     case ValueKind::target:
         return asLink("target", "README.md#targets");
     case ValueKind::file:
         return "file";
     case ValueKind::textList:
-        return "texts";
+        return "list of texts";
     case ValueKind::text:
         break;
     }
@@ -248,6 +249,7 @@ std::string ManualSections::children(const SchemaType& type) const {
     std::string text;
     for (const ChildRule& rule : rules) {
         std::string what;
+        if (rule.element && rule.element->tags().empty()) continue;
         if (rule.element) {
             const auto found =
                 std::find_if(schema_.types().begin(), schema_.types().end(),

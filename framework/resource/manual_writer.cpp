@@ -35,6 +35,21 @@ name of the file. In a [`<node>`](NODE) any resource may stand, with an `id` in 
 A method says what it works on relative to the node that it runs for: `this.terrain` is what the node has under the
 key `terrain`, `$o.terrain` what the node has that the variable `o` of a loop stands for, and `camera.terrain` what the
 first node with the flag `camera` has. A name without a dot is that of a resource.
+
+### In an editor
+
+An editor that knows the schema completes elements, attributes and words, tells what they mean, and marks what is wrong
+while you type. What it marks, `terrane check` would tell as well, be it an error or a warning; references, shaders and
+files only `check` and `play` look at.
+
+| Editor | |
+|---|---|
+| VS Code | with the extension *XML* by Red Hat, at once: in this repository by `.vscode/settings.json`, in an archive that `terrane new` made by its first line |
+| Emacs | in nxml-mode, at once: by `schemas.xml` beside the archive, and in the rest of this repository by `.dir-locals.el`, for which Emacs asks |
+| others | `terrane schema > terrane.xsd` or `terrane schema --format rnc > terrane.rnc`, and in the first line of the archive `<archive xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="terrane.xsd">` |
+
+Some archives of the original are no XML by the letter, such as those with `--` in a comment; we read them, and editors
+mark these places.
 )";
 
 struct Contents {

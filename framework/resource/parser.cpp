@@ -207,10 +207,14 @@ private:
         return parsed.valid;
     }
 
-    std::vector<std::string> allowedTags(const ElementDeclaration& declaration) const {
+    // Of prefixes, the tags that are known, or the prefix.
+    std::vector<std::string> allowedTags(const ElementDeclaration& declaration, bool known) const {
         std::vector<std::string> tags;
         for (const ChildRule& rule : declaration.childRules) {
-            if (rule.element) {
+            if (rule.element && known) {
+                const std::vector<std::string> more = rule.element->tags();
+                tags.insert(tags.end(), more.begin(), more.end());
+            } else if (rule.element) {
                 tags.push_back(rule.element->tag);
             } else {
                 const auto more =
@@ -223,16 +227,17 @@ private:
 
     void unknownElement(const XmlElement& child, const std::string& parent,
                         const ElementDeclaration& declaration) {
-        const std::vector<std::string> tags = allowedTags(declaration);
+        const std::vector<std::string> tags = allowedTags(declaration, false);
         // A rule for any resource allows too many tags to list them.
         constexpr std::size_t kListed = 24;
         std::string expected = "no child element";
         if (!tags.empty()) expected = tags.size() <= kListed ? listOfNames(tags) : "";
-        diagnostics_.report({.code = "unknown-element",
-                             .place = child.place(),
-                             .message = asTag(child.tag()) + " can't stand in " + asTag(parent),
-                             .expected = std::move(expected),
-                             .suggestion = nearestName(child.tag(), tags)});
+        diagnostics_.report(
+            {.code = "unknown-element",
+             .place = child.place(),
+             .message = asTag(child.tag()) + " can't stand in " + asTag(parent),
+             .expected = std::move(expected),
+             .suggestion = nearestName(child.tag(), allowedTags(declaration, true))});
     }
 
     bool checkCounts(const XmlElement& element, const ElementDeclaration& declaration,

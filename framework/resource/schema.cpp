@@ -59,6 +59,7 @@ void Schema::addRules(SchemaType& type) {
         const auto add = [&](const std::string& tag, const SchemaType& child) {
             if (taken.insert(tag).second) rule.elements.push_back({tag, &child, from.keyed});
         };
+        if (from.element && from.element->tags().empty()) continue;
         if (from.element) {
             const SchemaType& child = local(*from.element, type.id);
             for (const std::string& tag : from.element->tags())
