@@ -9,6 +9,7 @@ install(TARGETS terrane EXPORT terrane)
 install(DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/terrane FILES_MATCHING PATTERN *.h)
 install(DIRECTORY plugins DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/terrane FILES_MATCHING PATTERN *.h)
 install(DIRECTORY resources archives DESTINATION ${CMAKE_INSTALL_DATADIR}/terrane)
+install(FILES schemas.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/terrane)
 install(FILES LICENSE README.md CHANGES.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT terrane NAMESPACE terrane:: FILE terrane-targets.cmake DESTINATION ${config_dir})

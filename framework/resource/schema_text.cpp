@@ -30,7 +30,8 @@ std::string asSentence(std::string text) {
     if (text.empty()) return text;
     // What is a name, such as mat4, stays as it is spelt.
     const std::string_view word = std::string_view(text).substr(0, text.find_first_of(" :,;"));
-    const bool isName = std::any_of(word.begin() + 1, word.end(), [](char c) {
+    const auto rest = word.substr(std::min<std::size_t>(1, word.size()));
+    const bool isName = std::any_of(rest.begin(), rest.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return std::isupper(byte) || std::isdigit(byte) || c == '.' || c == '_';
     });
