@@ -7,6 +7,7 @@
 #include "resource/value_grammar.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 
 namespace terrane {
@@ -239,7 +240,7 @@ std::string ManualSections::words(const SchemaType& type) const {
         for (const std::string& word : asCodes(*list))
             all += (all.empty() ? "" : ", ") + word;
         if (first != &type) all = "as of " + link(*first, chapterOf(type));
-        text += "\nWords of " + names + ": " + all + ".\n";
+        text += fmt::format("\nWords of {}: {}.\n", names, all);
     }
     return text;
 }

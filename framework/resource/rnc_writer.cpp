@@ -5,6 +5,7 @@
 #include "resource/value_types.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
 #include <map>
 
@@ -56,7 +57,7 @@ std::string repeated(const std::string& pattern, std::size_t atLeast, std::size_
     }
     std::string optional;
     for (std::size_t i = atLeast; i < atMost; ++i)
-        optional = optional.empty() ? pattern + "?" : "(" + pattern + ", " + optional + ")?";
+        optional = optional.empty() ? pattern + "?" : fmt::format("({}, {})?", pattern, optional);
     if (!optional.empty()) pieces.push_back(optional);
     return joined(pieces, ", ");
 }
@@ -191,7 +192,7 @@ private:
         for (const std::string& alias : a.aliases)
             names.push_back(escaped(alias));
         for (std::string& name : names)
-            name = "attribute " + name + " { " + value + " }";
+            name = fmt::format("attribute {} {{ {} }}", name, value);
         std::string text = names.size() == 1 ? "\n" : "\n  (\n";
         document(text, "  ", documentation(schema_, d, a));
         text += "  " + joined(names, " | ") + (names.size() == 1 ? "" : ")");
