@@ -34,6 +34,11 @@ typename Map::mapped_type before(const Map& marked, const std::string& name) {
     return found == marked.end() ? typename Map::mapped_type{} : found->second;
 }
 
+// A reload forgets what it repaired.
+std::size_t since(std::size_t now, std::size_t mark) {
+    return now > mark ? now - mark : 0;
+}
+
 std::uint64_t peakResidentBytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -63,6 +68,29 @@ Json toJson(const std::vector<FrameTimes>& frames) {
 
 void Metrics::addFrame(const FrameTimes& times) {
     if (frames_.size() < kMostFrames) frames_.push_back(times);
+}
+
+void Metrics::addReload(const ReloadReport& report) {
+    if (!report.changed || !report.good) return;
+    ++marked_.reloads;
+    marked_.rebuilt += report.rebuilt.size();
+    for (const auto& [producer, tiles] : report.tilesInvalidated)
+        marked_.invalidated[producer] += tiles;
+}
+
+// The counts of the next producer of the name start from 0, which the difference to those at the
+// mark makes up for; unsigned numbers may pass through 0 on the way.
+void Metrics::carryOver(const std::string& name, const TileProducer& producer) {
+    const TileProducer::Statistics s = producer.statistics();
+    marked_.producers[name].tiles -= s.tiles;
+    marked_.producers[name].milliseconds -= s.milliseconds;
+}
+
+void Metrics::carryOver(const std::string& name, TileCache& cache) {
+    const TileCache::Statistics s = cache.statistics();
+    marked_.caches[name].hits -= s.hits;
+    marked_.caches[name].misses -= s.misses;
+    marked_.caches[name].evicted -= s.evicted;
 }
 
 void Metrics::mark(ResourceManager& resources) {
@@ -116,12 +144,15 @@ Json Metrics::json(ResourceManager& resources, const Host& host) const {
             {"frames", toJson(frames_)},
             {"producers", producers},
             {"caches", caches},
-            {"reloads", {{"count", 0}, {"resources", 0}, {"tiles_invalidated", Json::object()}}},
+            {"reloads",
+             {{"count", marked_.reloads},
+              {"resources", marked_.rebuilt},
+              {"tiles_invalidated", Json(marked_.invalidated)}}},
             {"memory", {{"peak_rss_bytes", peakResidentBytes()}, {"gl_objects", host.glObjects}}},
             {"allocations_last_frame", allocationsLastFrame},
             {"diagnostics",
-             {{"errors", diagnostics.errors() - marked_.errors},
-              {"warnings", diagnostics.warnings() - marked_.warnings}}}};
+             {{"errors", since(diagnostics.errors(), marked_.errors)},
+              {"warnings", since(diagnostics.warnings(), marked_.warnings)}}}};
 }
 
 } // namespace terrane

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/reload_report.h"
+
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -11,6 +13,8 @@ namespace terrane {
 
 class Diagnostics;
 class ResourceManager;
+class TileCache;
+class TileProducer;
 
 /// What one frame took. Milliseconds of the wall clock; `tiles` counts tasks that made a tile.
 struct FrameTimes {
@@ -42,6 +46,10 @@ public:
     /// Makes room, so that adding frames does not count as an allocation of theirs.
     void reserve() { frames_.reserve(4096); }
     void addFrame(const FrameTimes& times);
+    void addReload(const ReloadReport& report);
+    /// A reload replaces them by others of the same name: what these made still counts.
+    void carryOver(const std::string& name, const TileProducer& producer);
+    void carryOver(const std::string& name, TileCache& cache);
     /// Counters start again.
     void mark(ResourceManager& resources);
 
@@ -68,6 +76,8 @@ private:
         std::map<std::string, ProducerCounts> producers;
         std::map<std::string, CacheCounts> caches;
         std::size_t errors = 0, warnings = 0;
+        std::uint64_t reloads = 0, rebuilt = 0; ///< since the mark, as the next
+        std::map<std::string, std::int64_t> invalidated;
     };
 
     std::vector<FrameTimes> frames_;

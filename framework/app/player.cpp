@@ -45,10 +45,10 @@ Player::~Player() {
 }
 
 bool Player::load() {
-    if (!open()) return false;
-    const bool drawable = setScene(true);
-    if (diagnostics_.errors() > 0 && !options_.keepGoing) return false;
-    return drawable;
+    const bool drawable = open() && setScene(true);
+    good_ = drawable && diagnostics_.errors() == 0;
+    problemsEnd_ = diagnostics_.size();
+    return drawable && (good_ || options_.keepGoing);
 }
 
 void Player::check() {
@@ -59,10 +59,12 @@ void Player::check() {
 
 bool Player::open() {
     const Clock::time_point begin = Clock::now();
-    if (!openArchive()) return false;
+    library_ = readArchive();
+    if (!library_ && !options_.keepGoing) return false;
     const Clock::time_point read = Clock::now();
-    if (!openContext()) return false;
+    if (!context_ && !openContext()) return false;
     metrics_.startup.context = milliseconds(read, Clock::now());
+    if (!library_) return false;
     metrics_.startup.load = milliseconds(begin, read);
 
     resources_ = std::make_unique<ResourceManager>(registry_, *library_, diagnostics_);
@@ -75,11 +77,12 @@ bool Player::open() {
     return true;
 }
 
-bool Player::openArchive() {
+std::unique_ptr<Library> Player::readArchive() {
     const auto archive = resolveArchive(options_.archive, diagnostics_);
-    if (!archive) return false;
-    library_ = std::make_unique<Library>(archiveSearchPath(*archive, options_.paths), diagnostics_);
-    return library_->addArchive(*archive);
+    if (!archive) return nullptr;
+    auto library =
+        std::make_unique<Library>(archiveSearchPath(*archive, options_.paths), diagnostics_);
+    return library->addArchive(*archive) ? std::move(library) : nullptr;
 }
 
 bool Player::openContext() {
@@ -100,35 +103,47 @@ bool Player::openContext() {
 
 bool Player::setScene(bool rootRequired) {
     const Clock::time_point begin = Clock::now();
-    // A file of resources for others has nothing to play and is fine for `check`.
-    const auto found = library_->find(settings_.root.name);
-    if (!settings_.rootGiven && !found) {
-        if (!rootRequired) return false;
-        diagnostics_.error("no-root", library_->archivePlace(), "the archive has nothing to draw",
-                           "a node '" + settings_.root.name + "', or <player root=\"...\"/>");
-        return false;
-    }
-    if (!settings_.rootGiven) settings_.root.place = found->element.place();
-    resources_->resolve(settings_.root, typeid(SceneNode), nullptr);
-    // Without a scheduler the methods are still bound, so that one run tells all that is wrong.
-    const bool scheduled = setScheduler();
-    if (!settings_.root) return false;
-    scene_->setRoot(settings_.root);
-    terrains_ = terrainsOf(*settings_.root);
-    samplers_ = samplersOf(*settings_.root);
-    scene_->setCamera(settings_.camera, settings_.method);
+    if (!findRoot(settings_, rootRequired)) return false;
+    const bool scheduled = bindScene();
     const Clock::time_point loaded = Clock::now();
     metrics_.startup.load += milliseconds(begin, loaded);
+    if (!settings_.root) return false;
     const bool planned = scene_->plan();
     metrics_.startup.compile = milliseconds(loaded, Clock::now());
     setStartView();
     return planned && scheduled;
 }
 
+// A file of resources for others has nothing to play and is fine for `check`.
+bool Player::findRoot(PlayerSettings& settings, bool required) {
+    if (settings.rootGiven) return true;
+    Library& library = resources_->library();
+    if (const auto found = library.find(settings.root.name)) {
+        settings.root.place = found->element.place();
+        return true;
+    }
+    if (!required) return false;
+    diagnostics_.error("no-root", library.archivePlace(), "the archive has nothing to draw",
+                       "a node '" + settings.root.name + "', or <player root=\"...\"/>");
+    return false;
+}
+
+// Without a scheduler the rest is still bound, so that one run tells all that is wrong.
+bool Player::bindScene() {
+    resources_->resolve(settings_.root, typeid(SceneNode), nullptr);
+    const bool scheduled = setScheduler();
+    if (!settings_.root) return false;
+    scene_->setRoot(settings_.root);
+    terrains_ = terrainsOf(*settings_.root);
+    samplers_ = samplersOf(*settings_.root);
+    scene_->setCamera(settings_.camera, settings_.method);
+    return scheduled;
+}
+
 bool Player::setScheduler() {
     Scheduler* scheduler = nullptr;
-    if (!settings_.schedulerGiven && !library_->find(settings_.scheduler.name)) {
-        ownScheduler_ = std::make_shared<MultithreadScheduler>();
+    if (!settings_.schedulerGiven && !resources_->library().find(settings_.scheduler.name)) {
+        if (!ownScheduler_) ownScheduler_ = std::make_shared<MultithreadScheduler>();
         scheduler = ownScheduler_.get();
     } else {
         resources_->resolve(settings_.scheduler, typeid(Scheduler), nullptr);

@@ -5,6 +5,7 @@
 #include "app/metrics.h"
 #include "app/options.h"
 #include "app/player_element.h"
+#include "app/reload_report.h"
 #include "app/trace.h"
 #include "core/diagnostic.h"
 #include "core/image.h"
@@ -23,6 +24,7 @@ namespace terrane {
 class GlContext;
 class Library;
 class Registry;
+class Reload;
 class RenderTarget;
 class ResourceManager;
 class SceneManager;
@@ -59,6 +61,14 @@ public:
     /// Instead of load(): loads every entry, used or not, and binds the methods of the frame if
     /// there is a root node. To be called once.
     void check();
+
+    /// Reads the archive and its files again, between two frames: what changed is built anew, with
+    /// what was made from it, or, after errors, everything stays as it was. The camera stays, and
+    /// so do values that were set. An archive that had errors from the start is loaded anew. Errors
+    /// and warnings of the reload before are forgotten.
+    ReloadReport reload();
+    /// The errors of the last load or reload; none when it was good.
+    std::vector<Diagnostic> problems() const;
 
     /// There is something to draw: what follows may be called.
     bool drawable() const { return controller_ != nullptr; }
@@ -118,9 +128,17 @@ private:
     using Clock = std::chrono::steady_clock;
 
     bool open();
-    bool openArchive();
+    std::unique_ptr<Library> readArchive();
     bool openContext();
     bool setScene(bool rootRequired);
+    bool findRoot(PlayerSettings& settings, bool required);
+    bool bindScene();
+    ReloadReport restart();
+    ReloadReport replace();
+    bool rebind(Reload& reload, PlayerSettings settings);
+    void account(const Reload& reload, ReloadReport& report);
+    std::vector<ResourceEntry*> roots() const;
+    void followShape();
     bool setScheduler();
     void observe(Scheduler& scheduler);
     void setStartView();
@@ -156,6 +174,8 @@ private:
     std::vector<TerrainNode*> terrains_; ///< of the scene
     std::vector<TileSampler*> samplers_;
     std::unique_ptr<TerrainViewController> controller_;
+    bool good_ = false;                              ///< the archive is loaded without errors
+    std::size_t firstProblem_ = 0, problemsEnd_ = 0; ///< of the last load or reload
 
     Clock::time_point start_{};
     std::optional<glm::ivec2> newSize_; ///< of the next frame

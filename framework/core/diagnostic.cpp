@@ -136,6 +136,11 @@ std::size_t Diagnostics::warnings() const {
     return warnings_;
 }
 
+std::size_t Diagnostics::size() const {
+    std::lock_guard lock(mutex_);
+    return list_.size();
+}
+
 std::vector<Diagnostic> Diagnostics::all() const {
     std::lock_guard lock(mutex_);
     return list_;
@@ -146,6 +151,19 @@ void Diagnostics::clear() {
     list_.clear();
     indexByHash_.clear();
     errors_ = warnings_ = 0;
+}
+
+void Diagnostics::forget(std::size_t first, std::size_t last) {
+    std::lock_guard lock(mutex_);
+    list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(std::min(first, list_.size())),
+                list_.begin() + static_cast<std::ptrdiff_t>(std::min(last, list_.size())));
+    indexByHash_.clear();
+    errors_ = warnings_ = 0;
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+        indexByHash_.emplace(hash(list_[i]), i);
+        errors_ += list_[i].severity == Severity::error;
+        warnings_ += list_[i].severity == Severity::warning;
+    }
 }
 
 void Diagnostics::onReport(Listener listener) {

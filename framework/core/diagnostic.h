@@ -43,9 +43,12 @@ public:
 
     std::size_t errors() const;
     std::size_t warnings() const;
+    std::size_t size() const; ///< of all, notes too
     /// A copy, in the order of the reports.
     std::vector<Diagnostic> all() const;
     void clear();
+    /// Forgets the diagnostics from one of the list of all() on, up to another.
+    void forget(std::size_t first, std::size_t last);
     /// Called for each new diagnostic, on the thread that reports it.
     void onReport(Listener listener);
 

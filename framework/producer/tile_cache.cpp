@@ -50,6 +50,12 @@ void TileCache::removeProducer(TileProducer& producer) {
     producers_[static_cast<std::size_t>(producer.id())] = nullptr;
 }
 
+int TileCache::tilesOf(const TileProducer& producer) const {
+    return static_cast<int>(std::count_if(tiles_.begin(), tiles_.end(), [&](const auto& item) {
+        return &item.second->producer() == &producer && item.second->done();
+    }));
+}
+
 Tile* TileCache::find(const TileKey& key) const {
     const auto found = tiles_.find(key);
     return found == tiles_.end() ? nullptr : found->second.get();

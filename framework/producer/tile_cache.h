@@ -105,6 +105,8 @@ public:
     std::uint64_t invalidations() const { return invalidations_; }
 
     Statistics statistics();
+    /// Tiles of a producer that hold up-to-date data.
+    int tilesOf(const TileProducer& producer) const;
     /// Tiles without users plus free slots: what may be asked for without a refusal.
     int room();
 

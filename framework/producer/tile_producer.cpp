@@ -31,6 +31,7 @@ void TileProducer::retire() {
 }
 
 void TileProducer::setRootQuadSize(float size) {
+    if (rootQuadSize_ != 0 && size != rootQuadSize_) invalidateTiles(); // they count on it
     rootQuadSize_ = size;
     for (const auto& layer : layers_)
         layer->setRootQuadSize(size);

@@ -90,6 +90,23 @@ std::vector<GlslToken> scanGlsl(std::string_view text) {
     return tokens;
 }
 
+std::string significantGlsl(std::string_view text) {
+    std::string result;
+    std::size_t end = 0;
+    std::string_view directive;
+    for (const GlslToken& token : scanGlsl(text)) {
+        // A blank may tell one word from two, and `#define F(x)` from `#define F (x)`.
+        if (token.directive.data() != directive.data())
+            result += '\n';
+        else if (token.offset > end)
+            result += ' ';
+        result += token.text;
+        directive = token.directive;
+        end = token.offset + token.text.size();
+    }
+    return result;
+}
+
 std::vector<std::string_view> definedMacros(const std::vector<GlslToken>& tokens) {
     std::vector<std::string_view> names;
     for (std::size_t i = 2; i < tokens.size(); ++i) {

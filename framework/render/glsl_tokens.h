@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct GlslToken {
 
 /// All tokens, in order. Any bytes are accepted: what is no GLSL becomes symbols.
 std::vector<GlslToken> scanGlsl(std::string_view text);
+
+/// What counts of a text: all but comments, and the blanks between words. Two texts with the same
+/// compile to the same, but for __LINE__.
+std::string significantGlsl(std::string_view text);
 
 /// The names that `#define` lines give a meaning.
 std::vector<std::string_view> definedMacros(const std::vector<GlslToken>& tokens);

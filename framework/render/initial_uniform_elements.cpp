@@ -267,6 +267,7 @@ std::vector<const ElementDeclaration*> declareInitialUniforms(Registry& registry
             .attribute("name", &SamplerElement::uniform, kNameSummary)
             .required()
             .attribute("texture", &SamplerElement::texture, "the texture, or an image file")
+            .live()
             .required()
             .declaration();
     const auto& subroutine =

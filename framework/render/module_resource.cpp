@@ -2,7 +2,7 @@
 #include "render/module_resource.h"
 
 #include "core/text.h"
-
+#include "render/glsl_tokens.h"
 #include "render/initial_uniform_elements.h"
 #include "render/module.h"
 #include "resource/build_context.h"
@@ -67,7 +67,7 @@ GlslFiles includesOf(BuildContext& context) {
                     if (d.severity != Severity::error) context.diagnostics().report(d);
                 }
                 if (!path) return nullptr;
-                context.entry().files.push_back(*path);
+                context.addFile(name, *path, significantGlsl);
                 return context.manager().library().source(*path);
             },
             .namesNear =
@@ -78,14 +78,14 @@ GlslFiles includesOf(BuildContext& context) {
 
 bool readFiles(const ModuleElement& d, BuildContext& context, ModuleSource& source) {
     if (d.source.given) {
-        source.file = context.readSource(d.source->name, d.source.place);
+        source.file = context.readSource(d.source->name, d.source.place, significantGlsl);
         return source.file != nullptr;
     }
     bool good = true;
     for (std::size_t i = 0; i < kShaderStageCount; ++i) {
         const Attr<DataFile>& file = *d.stages()[i];
         if (!file.given) continue;
-        source.stageFiles[i] = context.readSource(file->name, file.place);
+        source.stageFiles[i] = context.readSource(file->name, file.place, significantGlsl);
         good = good && source.stageFiles[i];
     }
     return good;

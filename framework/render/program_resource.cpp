@@ -25,6 +25,7 @@ std::optional<ProgramBinary> findBinary(const ProgramElement& d, BuildContext& c
     const std::string file = (d.name.given ? *d.name : context.name()) + ".bin";
     const auto found = context.manager().library().searchPath().find(file);
     if (!found) return std::nullopt;
+    context.addFile(file, found->path);
     const auto bytes = readFile(found->path);
     std::uint32_t format = 0;
     if (!bytes || bytes->size() <= sizeof format) {
@@ -32,7 +33,6 @@ std::optional<ProgramBinary> findBinary(const ProgramElement& d, BuildContext& c
                                       inQuotes(file) + " can't be read, or is too short");
         return std::nullopt;
     }
-    context.entry().files.push_back(found->path);
     std::memcpy(&format, bytes->data(), sizeof format);
     return ProgramBinary{.format = format, .bytes = bytes->substr(sizeof format)};
 }
@@ -51,7 +51,7 @@ std::shared_ptr<Program> build(const ProgramElement& d, BuildContext& context) {
     auto program =
         Program::link(context.service<ProgramBindings>(), std::move(source), context.diagnostics());
     // Values that were set live survive a reload.
-    const auto previous = std::dynamic_pointer_cast<Program>(context.entry().instance);
+    const auto previous = context.previous<Program>();
     if (program && previous) program->inheritValues(*previous);
     return program;
 }

@@ -5,16 +5,25 @@
 
 namespace terrane {
 
-std::optional<std::filesystem::path> BuildContext::findFile(const std::string& name,
-                                                            const Place& place) const {
+std::optional<std::filesystem::path>
+BuildContext::findFile(const std::string& name, const Place& place,
+                       FileStamp::Significant significant) const {
+    ++uses_;
     auto path = manager_.library().findFile(name, place, diagnostics_);
-    if (path) entry_.files.push_back(*path);
+    if (path) addFile(name, *path, significant);
     return path;
 }
 
-std::shared_ptr<const SourceFile> BuildContext::readSource(const std::string& name,
-                                                           const Place& place) const {
-    const auto path = findFile(name, place);
+void BuildContext::addFile(const std::string& name, const std::filesystem::path& path,
+                           FileStamp::Significant significant) const {
+    ++uses_;
+    entry_.files.push_back({name, path, FileStamp::of(path, significant)});
+}
+
+std::shared_ptr<const SourceFile>
+BuildContext::readSource(const std::string& name, const Place& place,
+                         FileStamp::Significant significant) const {
+    const auto path = findFile(name, place, significant);
     if (!path) return nullptr;
     auto source = manager_.library().source(*path);
     if (!source) diagnostics_.error("file-unreadable", place, "can't read '" + name + "'");
@@ -22,6 +31,7 @@ std::shared_ptr<const SourceFile> BuildContext::readSource(const std::string& na
 }
 
 void BuildContext::loadReference(const RefBase& ref, std::type_index interface) const {
+    ++uses_;
     if (!ref.entry()) manager_.resolve(ref, interface, &entry_);
 }
 

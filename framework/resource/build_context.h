@@ -50,6 +50,11 @@ public:
     Diagnostics& diagnostics() const { return diagnostics_; }
     ResourceManager& manager() const { return manager_; }
     ResourceEntry& entry() const { return entry_; }
+    /// In a reload: the version that the resource being built replaces, if it is a T; else null.
+    template <class T>
+    std::shared_ptr<T> previous() const {
+        return std::dynamic_pointer_cast<T>(previous_);
+    }
 
     /// A service that the host must have provided.
     template <class S>
@@ -71,17 +76,28 @@ public:
     }
 
     /// Finds a data file in the search folders and records it; reports when it is missing.
-    std::optional<std::filesystem::path> findFile(const std::string& name,
-                                                  const Place& place) const;
+    /// @param significant what counts of it; see FileStamp
+    std::optional<std::filesystem::path>
+    findFile(const std::string& name, const Place& place,
+             FileStamp::Significant significant = nullptr) const;
+    /// Records a data file that was found otherwise, to be called before it is read.
+    void addFile(const std::string& name, const std::filesystem::path& path,
+                 FileStamp::Significant significant = nullptr) const;
     /// The same, read as text that diagnostics can point into; null when missing.
-    std::shared_ptr<const SourceFile> readSource(const std::string& name, const Place& place) const;
+    std::shared_ptr<const SourceFile>
+    readSource(const std::string& name, const Place& place,
+               FileStamp::Significant significant = nullptr) const;
 
 private:
+    friend class ResourceManager;
+
     void loadReference(const RefBase& ref, std::type_index interface) const;
 
     ResourceManager& manager_;
     ResourceEntry& entry_;
     Diagnostics& diagnostics_;
+    std::shared_ptr<Resource> previous_;
+    mutable int uses_ = 0; ///< of files and resources that no attribute names
 };
 
 } // namespace terrane

@@ -55,7 +55,8 @@ struct AttributeDeclaration {
     bool trueUnlessFalse = false;       ///< booleans: any word but "false" is true
     bool otherWordsMeanDefault = false; ///< enumerations: an unknown word is but a warning
     bool onDemand = false; ///< references: loaded by the builder or later, not before it runs
-    bool planned = false;  ///< accepted, but has no effect yet
+    bool live = false; ///< references: what is built sees the resource of the moment through them
+    bool planned = false;                    ///< accepted, but has no effect yet
     std::optional<std::type_index> refersTo; ///< references: interface of the resource
 
     /// Reads a text into the description. False, with diagnostics, when it can't.
@@ -171,6 +172,9 @@ public:
     Derived& trueUnlessFalse() { return last().trueUnlessFalse = true, self(); }
     Derived& otherWordsMeanDefault() { return last().otherWordsMeanDefault = true, self(); }
     Derived& onDemand() { return last().onDemand = true, self(); }
+    /// Of references that what is built keeps as such, and never what they refer to: it need not be
+    /// built anew when that is.
+    Derived& live() { return last().live = true, self(); }
     Derived& planned() { return last().planned = true, self(); }
 
     /// Allows a local element type. `element` must live as long as the registry (see

@@ -3,6 +3,7 @@
 
 #include "resource/value.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ struct Child {
     const ElementDeclaration* declaration = nullptr;
     std::shared_ptr<ElementDescription> description;
     std::shared_ptr<Resource> resource;
+    /// What was built depends on nothing but the description and its references: a reload that
+    /// changes none of them keeps it.
+    bool selfContained = false;
 
     /// The description, if this child was declared with description type D; else null.
     template <class D>
@@ -34,11 +38,12 @@ struct Child {
 struct ElementDescription {
     virtual ~ElementDescription() = default;
 
-    std::string tag;             ///< as written; matters where a declaration matches a prefix
-    Attr<std::string> name;      ///< of an archive's entry; empty for most nested elements
-    Attr<std::string> id;        ///< key of a child of a node
-    Place place;                 ///< the element's '<'
-    std::vector<Child> children; ///< in document order
+    std::string tag;               ///< as written; matters where a declaration matches a prefix
+    Attr<std::string> name;        ///< of an archive's entry; empty for most nested elements
+    Attr<std::string> id;          ///< key of a child of a node
+    Place place;                   ///< the element's '<'
+    std::uint64_t fingerprint = 0; ///< of the element; see XmlElement
+    std::vector<Child> children;   ///< in document order
 };
 
 } // namespace terrane

@@ -2,6 +2,8 @@
 #include "resource/manager.h"
 
 #include "core/text.h"
+#include "resource/predecessors.h"
+#include "resource/transaction.h"
 
 #include <algorithm>
 #include <new>
@@ -45,8 +47,7 @@ bool isReady(const RefBase& ref) {
     return ref.entry() && ref.entry()->state == ResourceEntry::State::ready;
 }
 
-bool dependsOn(const ResourceEntry& dependent, const ResourceEntry& entry) {
-    const auto& list = dependent.dependencies;
+bool contains(const std::vector<ResourceEntry*>& list, const ResourceEntry& entry) {
     return std::find(list.begin(), list.end(), &entry) != list.end();
 }
 
@@ -71,19 +72,24 @@ bool canBuild(const ElementDeclaration& declaration, ElementDescription& descrip
 ResourceManager::ResourceManager(const Registry& registry, Library& library,
                                  Diagnostics& diagnostics)
     : registry_(registry)
-    , library_(library)
+    , library_(&library)
     , diagnostics_(diagnostics) {}
 
 ResourceManager::~ResourceManager() {
-    for (auto entry = built_.rbegin(); entry != built_.rend(); ++entry) {
-        (*entry)->instance.reset();
-        (*entry)->description.reset();
+    std::vector<ResourceEntry*> order;
+    for (const auto& [name, entry] : entries_)
+        order.push_back(entry.get());
+    std::sort(order.begin(), order.end(),
+              [](const auto* a, const auto* b) { return a->order > b->order; });
+    for (ResourceEntry* const entry : order) {
+        entry->instance.reset();
+        entry->description.reset();
     }
 }
 
 ResourceEntry* ResourceManager::load(const std::string& name, const Place& place) {
     const auto known = entries_.find(name);
-    if (known != entries_.end()) {
+    if (known != entries_.end() && known->second->state != ResourceEntry::State::unloaded) {
         ResourceEntry& entry = *known->second;
         if (entry.state == ResourceEntry::State::loading) {
             reportCycle(entry, place);
@@ -98,8 +104,8 @@ ResourceEntry* ResourceManager::load(const std::string& name, const Place& place
                              .expected = "at most " + std::to_string(kMaxChain) + " in a row"});
         return nullptr;
     }
-    const auto found = library_.find(name);
-    if (!found && library_.isDamaged(name)) {
+    const auto found = library_->find(name);
+    if (!found && library_->isDamaged(name)) {
         // The damage has been told; whoever else names it fails silently.
         ResourceEntry& entry = add(name);
         entry.state = ResourceEntry::State::failed;
@@ -111,7 +117,8 @@ ResourceEntry* ResourceManager::load(const std::string& name, const Place& place
     }
     ResourceEntry& entry = add(name);
     entry.state = ResourceEntry::State::loading;
-    if (!found->file.empty()) entry.files.push_back(found->file);
+    entry.descriptor = found->file;
+    entry.fingerprint = found->element.fingerprint();
     loading_.push_back({&entry, place});
     warnName(name, *found, place);
     describeAndBuild(entry, *found, place);
@@ -120,9 +127,13 @@ ResourceEntry* ResourceManager::load(const std::string& name, const Place& place
 }
 
 ResourceEntry& ResourceManager::add(const std::string& name) {
-    ResourceEntry& entry = *entries_.emplace(name, std::make_unique<ResourceEntry>()).first->second;
-    entry.name = name;
-    return entry;
+    const auto [known, isNew] = entries_.try_emplace(name);
+    if (isNew) {
+        known->second = std::make_unique<ResourceEntry>();
+        known->second->name = name;
+        if (transaction_) transaction_->added.push_back(known->second.get());
+    }
+    return *known->second;
 }
 
 void ResourceManager::warnName(const std::string& name, const FoundElement& found,
@@ -186,7 +197,7 @@ void ResourceManager::describeAndBuild(ResourceEntry& entry, const FoundElement&
 void ResourceManager::findFiles(const std::vector<AttributeText>& files) {
     Diagnostics local;
     for (const AttributeText& file : files)
-        library_.findFile(file.text, file.valuePlace, local);
+        library_->findFile(file.text, file.valuePlace, local);
     forward(local);
 }
 
@@ -202,9 +213,11 @@ bool ResourceManager::loadReferences(ResourceEntry& entry, bool onDemand) {
     bool complete = true;
     for (const auto& [attribute, ref] :
          references(*entry.declaration, *entry.description, onDemand)) {
-        resolve(*ref, *attribute->refersTo, &entry);
+        resolve(*ref, *attribute->refersTo, &entry, attribute->live);
         const bool planned = ref->entry() && ref->entry()->state == ResourceEntry::State::planned;
-        if (!isReady(*ref) && !planned && own.contains(ref)) complete = false;
+        if (isReady(*ref) || planned) continue;
+        entry.incomplete = true;
+        if (own.contains(ref)) complete = false;
     }
     return complete;
 }
@@ -213,7 +226,11 @@ void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
     BuildContext context(*this, entry, local);
     entry.state = ResourceEntry::State::loading;
     try {
-        buildChildren(*entry.description, context);
+        const ResourceVersion* const previous =
+            transaction_ ? transaction_->previous(&entry) : nullptr;
+        buildChildren(*entry.description, context,
+                      previous ? previous->description.get() : nullptr);
+        context.previous_ = previous ? previous->instance : nullptr;
         if (entry.declaration->build)
             entry.instance = entry.declaration->build(*entry.description, context);
     } catch (const std::bad_alloc&) {
@@ -221,28 +238,60 @@ void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
                     "there is not enough memory for " + describe(entry));
     }
     entry.state = entry.instance ? ResourceEntry::State::ready : ResourceEntry::State::failed;
-    if (entry.instance)
-        built_.push_back(&entry);
-    else
-        dropChildren(*entry.description);
+    entry.order = ++built_;
+    if (!entry.instance) dropChildren(*entry.description);
 }
 
-void ResourceManager::buildChildren(ElementDescription& description, BuildContext& context) {
-    for (Child& child : description.children) {
-        buildChildren(*child.description, context);
-        if (child.declaration->build && canBuild(*child.declaration, *child.description))
-            child.resource = child.declaration->build(*child.description, context);
+void ResourceManager::buildChildren(ElementDescription& description, BuildContext& context,
+                                    const ElementDescription* previous) {
+    const std::vector<const Child*> before = predecessors(previous, description);
+    for (std::size_t i = 0; i < description.children.size(); ++i) {
+        Child& child = description.children[i];
+        if (before[i] && isKept(*before[i], child)) {
+            // Its description comes along, with what stands in it.
+            child = *before[i];
+            continue;
+        }
+        const int uses = context.uses_;
+        buildChildren(*child.description, context,
+                      before[i] ? before[i]->description.get() : nullptr);
+        if (!child.declaration->build || !canBuild(*child.declaration, *child.description))
+            continue;
+        context.previous_ = before[i] ? before[i]->resource : nullptr;
+        child.resource = child.declaration->build(*child.description, context);
+        child.selfContained = context.uses_ == uses;
+        if (!child.resource) context.entry_.incomplete = true;
     }
+}
+
+// Whether a nested resource of the version before the reload serves for the element of now.
+bool ResourceManager::isKept(const Child& previous, const Child& child) const {
+    if (!previous.resource || !previous.selfContained ||
+        previous.description->fingerprint != child.description->fingerprint)
+        return false;
+    for (const bool onDemand : {false, true}) {
+        for (const auto& [attribute, ref] :
+             references(*child.declaration, *child.description, onDemand)) {
+            if (!isReady(*ref)) return false;
+            if (!attribute->live && transaction_->touches(ref->entry())) return false;
+        }
+    }
+    return true;
+}
+
+void ResourceManager::connect(ResourceEntry& dependent, ResourceEntry& entry, bool live) {
+    if (!contains(dependent.dependencies, entry)) {
+        dependent.dependencies.push_back(&entry);
+        entry.dependents.push_back(&dependent);
+    }
+    if (!live && !contains(dependent.madeFrom, entry)) dependent.madeFrom.push_back(&entry);
 }
 
 void ResourceManager::resolve(const RefBase& ref, std::type_index interface,
-                              ResourceEntry* dependent) {
+                              ResourceEntry* dependent, bool live) {
     ResourceEntry* const entry = load(ref.name, ref.place);
     if (!entry) return;
-    if (dependent && !dependsOn(*dependent, *entry)) {
-        dependent->dependencies.push_back(entry);
-        entry->dependents.push_back(dependent);
-    }
+    if (dependent) connect(*dependent, *entry, live);
     if (!entry->declaration) return;
     if (!entry->declaration->isA(interface) && !entry->declaration->planned) {
         reportMistyped(ref, *entry, interface);
@@ -252,10 +301,10 @@ void ResourceManager::resolve(const RefBase& ref, std::type_index interface,
 }
 
 void ResourceManager::loadAll() {
-    for (const XmlElement& element : library_.entries()) {
+    for (const XmlElement& element : library_->entries()) {
         const std::string name = element.attribute("name");
         if (registry_.findTopLevel(element.tag())) continue;
-        const auto found = library_.find(name);
+        const auto found = library_->find(name);
         if (!found || !(found->element == element)) {
             checkUnused(element);
             continue;
@@ -324,10 +373,10 @@ void ResourceManager::reportMistyped(const RefBase& ref, const ResourceEntry& en
 // An entry, or else a file.
 std::string ResourceManager::suggestName(const std::string& name) {
     if (suggestionsLeft_-- <= 0) return {};
-    std::string nearest = nearestName(name, library_.names());
+    std::string nearest = nearestName(name, library_->names());
     if (!nearest.empty()) return nearest;
     std::vector<std::string> files;
-    for (const std::string& file : library_.searchPath().namesNear(name)) {
+    for (const std::string& file : library_->searchPath().namesNear(name)) {
         if (file.ends_with(".xml")) files.push_back(file.substr(0, file.size() - 4));
     }
     return nearestName(name, files);
@@ -337,7 +386,7 @@ std::string ResourceManager::suggestName(const std::string& name) {
 std::string ResourceManager::suggestEntry(const std::string& name, std::type_index interface) {
     if (suggestionsLeft_-- <= 0) return {};
     std::vector<std::string> names;
-    for (const XmlElement& element : library_.entries()) {
+    for (const XmlElement& element : library_->entries()) {
         const ElementDeclaration* const declaration = registry_.find(element.tag());
         if (declaration && declaration->isA(interface)) names.push_back(element.attribute("name"));
     }

@@ -16,9 +16,12 @@
 
 namespace terrane {
 
+struct Transaction;
+
 /// Loads resources by name, keeps at most one instance per name, and knows what depends on what.
 /// Owns all entries and instances; destroys instances in the reverse order of their creation, so
-/// that a dependent goes before what it uses. Lives on the GL thread.
+/// that a dependent goes before what it uses. Lives on the GL thread. A Reload replaces what
+/// changed.
 class ResourceManager {
 public:
     /// All of them must outlive the manager.
@@ -27,7 +30,7 @@ public:
 
     Services& services() { return services_; }
     const Registry& registry() const { return registry_; }
-    Library& library() { return library_; }
+    Library& library() { return *library_; }
     Diagnostics& diagnostics() { return diagnostics_; }
 
     /// Loads a resource and everything it refers to. The entry's state tells what came of it;
@@ -36,7 +39,9 @@ public:
 
     /// Loads what a reference names, checks that it is an `interface`, and records that
     /// `dependent` (may be null) depends on it. The reference stays unresolved after an error.
-    void resolve(const RefBase& ref, std::type_index interface, ResourceEntry* dependent);
+    /// @param live whether it follows the reference, and so need not be made anew with it
+    void resolve(const RefBase& ref, std::type_index interface, ResourceEntry* dependent,
+                 bool live = false);
 
     /// A typed look-up: null when it can't be had (reported).
     template <class T>
@@ -57,9 +62,15 @@ public:
     }
 
 private:
-    /// Builds the resources nested in a description, depth first. One that can't be built is null:
-    /// its parent does without it.
-    void buildChildren(ElementDescription& description, BuildContext& context);
+    friend class Reload;
+
+    /// Builds the resources nested in a description, depth first, or keeps those of its previous
+    /// version that nothing has changed for. One that can't be built is null: its parent does
+    /// without it.
+    void buildChildren(ElementDescription& description, BuildContext& context,
+                       const ElementDescription* previous);
+    bool isKept(const Child& previous, const Child& child) const;
+    void connect(ResourceEntry& dependent, ResourceEntry& entry, bool live);
     ResourceEntry& add(const std::string& name);
     void warnName(const std::string& name, const FoundElement& found, const Place& place);
     void describeAndBuild(ResourceEntry& entry, const FoundElement& found, const Place& place);
@@ -77,14 +88,16 @@ private:
     const ElementDeclaration* declarationOf(const XmlElement& element);
 
     const Registry& registry_;
-    Library& library_;
+    Library* library_; ///< another one after a reload
     Diagnostics& diagnostics_;
     Services services_;
     std::map<std::string, std::unique_ptr<ResourceEntry>> entries_;
-    std::vector<ResourceEntry*> built_; ///< in the order of creation
+    std::uint64_t built_ = 0;            ///< so many instances were made
+    Transaction* transaction_ = nullptr; ///< of the reload that is under way
     /// A search for the nearest name looks at every entry; an archive with more wrong names than
     /// this has another problem.
-    int suggestionsLeft_ = 100;
+    static constexpr int kMostSuggestions = 100;
+    int suggestionsLeft_ = kMostSuggestions;
     struct Loading {
         ResourceEntry* entry;
         Place neededAt;

@@ -24,6 +24,8 @@ public:
         ParsedElement result{&declaration, declaration.makeDescription(), true, {}};
         result.description->tag = element.tag();
         result.description->place = element.place();
+        if (depth == 0 || declaration.build)
+            result.description->fingerprint = element.fingerprint();
         result.description->name.place = result.description->id.place = element.place();
         result.valid &= readAttributes(element, declaration, keyed, depth, *result.description);
         if (declaration.planned) {

@@ -6,6 +6,8 @@
 
 #include <cctype>
 #include <cstring>
+#include <functional>
+#include <string_view>
 
 namespace terrane {
 
@@ -25,6 +27,30 @@ std::optional<XmlFault> wrongEncoding(const std::string& text) {
     const std::size_t zero = text.find('\0');
     if (zero == std::string::npos) return std::nullopt;
     return XmlFault{zero, "the file holds a zero byte", "text"};
+}
+
+std::uint64_t hashOf(const char* text) {
+    return std::hash<std::string_view>()(text);
+}
+
+// As the order counts, the sum so far is stirred before the next part comes.
+std::uint64_t combined(std::uint64_t sum, std::uint64_t part) {
+    return (sum ^ (sum >> 29)) * 0xbf58476d1ce4e5b9u + part; // the multiplier of SplitMix64
+}
+
+// Deeper than the parser accepts, nothing counts.
+constexpr int kDeepest = 300;
+
+std::uint64_t fingerprintOf(const pugi::xml_node& node, int depth = 0) {
+    std::uint64_t attributes = 0; // in any order
+    for (const pugi::xml_attribute attribute : node.attributes())
+        attributes += combined(hashOf(attribute.name()), hashOf(attribute.value()));
+    std::uint64_t sum = combined(hashOf(node.name()), attributes);
+    for (const pugi::xml_node child : node.children()) {
+        if (child.type() == pugi::node_element && depth < kDeepest)
+            sum = combined(sum, fingerprintOf(child, depth + 1));
+    }
+    return combined(sum, 1); // the end of the children
 }
 
 } // namespace
@@ -104,6 +130,10 @@ std::vector<XmlElement> XmlElement::children() const {
         result.back().blame_ = blame_;
     }
     return result;
+}
+
+std::uint64_t XmlElement::fingerprint() const {
+    return fingerprintOf(node_);
 }
 
 Place XmlElement::textPlace() const {

@@ -3,6 +3,7 @@
 
 #include "core/diagnostic.h"
 
+#include <cstdint>
 #include <memory>
 #include <pugixml.hpp>
 #include <string>
@@ -53,6 +54,9 @@ public:
     std::vector<XmlAttribute> attributes() const;
     std::string attribute(const char* name) const { return node_.attribute(name).value(); }
     std::vector<XmlElement> children() const; ///< elements only
+    /// Equal for elements that say the same: of the same tag, attributes in any order, and elements
+    /// in them. Comments, blanks and text don't count.
+    std::uint64_t fingerprint() const;
     /// Whether both are the same element of the same document.
     bool operator==(const XmlElement& other) const { return node_ == other.node_; }
     /// The first visible character of text that stands in the element; empty when there is none.

@@ -16,6 +16,10 @@ ResourceManager& BindContext::resources() const {
     return scene_.resources();
 }
 
+ResourceEntry& BindContext::uses() const {
+    return scene_.uses_;
+}
+
 SceneNode* BindContext::findNode(const std::string& target) const {
     if (target == "this") return owner_;
     if (target.starts_with('$')) {

@@ -28,6 +28,7 @@ public:
     SceneNode& owner() const { return *owner_; }
     Diagnostics& diagnostics() const;
     ResourceManager& resources() const;
+    ResourceEntry& uses() const;
 
     /// The node of a target (ork reference 3): `this`, `$v`, or the first one with a flag, in
     /// document order. Null when there is none; nothing is reported.
@@ -38,13 +39,20 @@ public:
     /// taken as that of a resource, as archives of the original may rely on.
     SceneNode* nodeOf(const Attr<Target>& name) const;
 
+    /// A resource by its name, which the frame needs from then on. Null, reported, when it can't be
+    /// had.
+    template <class T>
+    Ref<T> resource(const std::string& name, const Place& place) const {
+        return resources().get<T>(name, place, &uses());
+    }
+
     /// A field of the target node (`this.terrain`), or a resource of a plain name. Null, with an
     /// error, when it is missing or no T.
     template <class T>
     T* field(const Attr<Target>& name) const {
-        if (name->node.empty()) return resources().get<T>(name->name, name.place).get();
+        if (name->node.empty()) return resource<T>(name->name, name.place).get();
         SceneNode* const node = nodeOf(name);
-        if (!node) return resources().get<T>(name->name, name.place).get();
+        if (!node) return resource<T>(name->name, name.place).get();
         T* const found = node->field<T>(name->name);
         const auto field = node->fields.find(name->name);
         const bool told = field != node->fields.end() && !field->second.get();

@@ -78,7 +78,7 @@ private:
 
 Mesh* findMesh(const Attr<Target>& name, BindContext& context) {
     SceneNode* const node = context.nodeOf(name);
-    if (!node) return context.resources().get<Mesh>(name->name + ".mesh", name.place).get();
+    if (!node) return context.resource<Mesh>(name->name + ".mesh", name.place).get();
     const auto mesh = node->meshes.find(name->name);
     if (mesh != node->meshes.end()) return mesh->second.get();
     context.reportMissing(name, *node, "mesh", node->meshes);

@@ -32,7 +32,9 @@ SceneManager::SceneManager(ResourceManager& resources, const GlContext& context,
     drawState_.screen = drawState_.framebuffer = &screen;
 }
 
-SceneManager::~SceneManager() = default;
+SceneManager::~SceneManager() {
+    changed();
+}
 
 Program* SceneManager::currentProgram(const Mesh& mesh, const Place& place) const {
     Program* const program = drawState_.program;
@@ -69,6 +71,10 @@ void SceneManager::changed() {
     indexed_ = planned_ = false;
     plan_.reset();
     graph_.clear();
+    for (ResourceEntry* const entry : uses_.dependencies)
+        std::erase(entry->dependents, &uses_);
+    uses_.dependencies.clear();
+    uses_.madeFrom.clear();
 }
 
 void SceneManager::index(SceneNode& node) {

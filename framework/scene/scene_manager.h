@@ -93,10 +93,14 @@ public:
     /// Binds the camera's method now, if it is not bound; what can't be found is reported. False
     /// when nothing could be bound.
     bool plan();
-    /// To be called when nodes, flags or methods change: the next frame is planned anew.
+    /// To be called when nodes, flags, methods or resources change: the next frame is planned anew.
     void changed();
+    /// What the plan found by name, as dependencies. Forgotten when the scene changes.
+    const ResourceEntry& uses() const { return uses_; }
 
 private:
+    friend class BindContext;
+
     void updateFrames(SceneNode& node, const glm::dmat4& parentToWorld);
     Box updateBounds(SceneNode& node);
     void updateVisibility(SceneNode& node, Visibility inherited);
@@ -119,6 +123,7 @@ private:
     SceneNode* camera_ = nullptr;
     bool planned_ = false;
     std::unique_ptr<BoundTask> plan_;
+    ResourceEntry uses_;
     TaskGraph graph_;
 
     FrustumPlanes worldPlanes_{};

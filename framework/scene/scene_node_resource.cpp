@@ -218,6 +218,7 @@ const ElementDeclaration& declareValue(Registry& registry) {
         .orInfinite()
         .attribute("type", &D::type, "BOOL, INT, UINT, FLOAT or DOUBLE, as does any other word")
         .attribute("texture", &D::texture, "texture of a sampler value")
+        .live()
         .ignored("name", "ignored")
         .ignored("sampler", "ignored")
         .check(checkValue)
@@ -231,6 +232,7 @@ const ElementDeclaration& declareMethod(Registry& registry) {
         .required()
         .attribute("value", &D::value, "the task that the method runs, mostly a sequence")
         .required()
+        .live()
         .attribute("enabled", &D::enabled, "whether calls run it")
         .trueUnlessFalse()
         .declaration();
@@ -300,6 +302,7 @@ void declareSceneNode(Registry& registry) {
         .child(declareKeyed<Module>(registry, "module",
                                     "A shader of the node, by the key that methods use.",
                                     "the module")
+                   .live()
                    .lenient()
                    .declaration())
         .child(declareKeyed<Mesh>(registry, "mesh",
@@ -310,6 +313,7 @@ void declareSceneNode(Registry& registry) {
         .child(declareKeyed<Resource>(
                    registry, "field",
                    "Any resource, by the key that methods use, such as a terrain.", "the resource")
+                   .live()
                    .declaration())
         .child(declareMethod(registry))
         .child(node.declaration())

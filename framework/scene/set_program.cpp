@@ -101,7 +101,7 @@ public:
             name += found.name + ";";
         }
         if (!complete) return nullptr;
-        Ref<Program> program = context.resources().get<Program>(name, place_);
+        Ref<Program> program = context.resource<Program>(name, place_);
         if (!program) return nullptr;
         std::vector<NodeUniform> uniforms;
         if (setUniforms_) {
@@ -123,7 +123,7 @@ private:
 
 Ref<Module> findModule(const Attr<Target>& name, BindContext& context) {
     SceneNode* const node = context.nodeOf(name);
-    if (!node) return context.resources().get<Module>(name->name, name.place);
+    if (!node) return context.resource<Module>(name->name, name.place);
     const auto module = node->modules.find(name->name);
     if (module != node->modules.end()) return module->second;
     context.reportMissing(name, *node, "module", node->modules);

@@ -29,6 +29,14 @@ TerrainNode::TerrainNode(Parameters parameters)
     quads_.createRoot(-p.size, -p.size, 2 * p.size, p.zmin, p.zmax);
 }
 
+void TerrainNode::inherit(const TerrainNode& previous) {
+    const Parameters& before = previous.parameters_;
+    if (before.size != parameters_.size || previous.deformation().shape() != deformation().shape())
+        return;
+    groundHeight_ = previous.groundHeight_;
+    groundSample_ = previous.groundSample_;
+}
+
 void TerrainNode::setGroundHeight(double height) {
     if (std::isfinite(height)) groundHeight_ = height;
 }

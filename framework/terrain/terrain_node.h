@@ -40,6 +40,9 @@ public:
     };
 
     explicit TerrainNode(Parameters parameters);
+    /// Takes over what is known of the ground from an earlier version of this terrain, if it has
+    /// the same shape.
+    void inherit(const TerrainNode& previous);
 
     const Parameters& parameters() const { return parameters_; }
     const Deformation& deformation() const { return *parameters_.deformation; }

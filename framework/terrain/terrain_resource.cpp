@@ -60,7 +60,7 @@ std::shared_ptr<const Deformation> makeDeformation(const TerrainNodeDescription&
     return std::make_shared<Deformation>();
 }
 
-std::shared_ptr<TerrainNode> build(const TerrainNodeDescription& d, BuildContext&) {
+std::shared_ptr<TerrainNode> build(const TerrainNodeDescription& d, BuildContext& context) {
     TerrainNode::Parameters p;
     p.size = d.size;
     std::tie(p.zmin, p.zmax) = std::minmax(*d.zmin, *d.zmax);
@@ -69,7 +69,9 @@ std::shared_ptr<TerrainNode> build(const TerrainNodeDescription& d, BuildContext
     p.splitFactorPlace = d.splitFactor.place;
     p.maxLevel = d.maxLevel;
     p.horizonCulling = d.horizonCulling;
-    return std::make_shared<TerrainNode>(std::move(p));
+    auto terrain = std::make_shared<TerrainNode>(std::move(p));
+    if (const auto previous = context.previous<TerrainNode>()) terrain->inherit(*previous);
+    return terrain;
 }
 
 } // namespace

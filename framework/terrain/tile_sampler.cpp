@@ -20,7 +20,8 @@ TileId tileOf(const TerrainQuad& quad) {
 } // namespace
 
 TileSampler::TileSampler(Parameters parameters)
-    : parameters_(std::move(parameters)) {}
+    : parameters_(std::move(parameters))
+    , producer_(parameters_.producer.shared()) {}
 
 TileSampler::~TileSampler() {
     releaseAll();

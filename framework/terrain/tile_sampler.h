@@ -34,7 +34,7 @@ public:
     ~TileSampler() override;
 
     const Parameters& parameters() const { return parameters_; }
-    TileProducer& producer() const { return *parameters_.producer; }
+    TileProducer& producer() const { return *producer_; }
 
     /// Releases and acquires tiles for the quads of now. The frame waits for those that have to be
     /// produced. A full cache is reported ("cache-full"), and again when a quarter more is needed;
@@ -77,6 +77,7 @@ private:
     void reportShortage(Diagnostics& diagnostics);
 
     Parameters parameters_;
+    std::shared_ptr<TileProducer> producer_; ///< whose tiles are held, whatever a reload brings
     const TerrainNode* terrain_ = nullptr; ///< whose quads are held
     std::vector<Held> held_;               ///< by index of the quad
     std::vector<int> heldQuads_;           ///< indices with a tile

@@ -392,17 +392,18 @@ TEST_CASE("a resource of its own file is told in that file, with the chain") {
         CHECK(d.chain[0].ends_with("a.xml:1:38"));
         CHECK(d.chain[1] == "basket 'b'");
     }
-    CHECK(world.manager->entries().at("file")->files.size() == 1);
+    CHECK(world.manager->entries().at("file")->descriptor == world.folder / "file.xml");
 }
 
 TEST_CASE("files that a resource reads are recorded") {
     ArchiveWorld world;
     world.folder.file("data.txt");
     world.load(R"(<apple name="a" file="data.txt"/>)");
-    const auto& files = world.manager->entries().at("a")->files;
-    REQUIRE(files.size() == 2);
-    CHECK(files[0] == world.folder.path() / "a.xml");
-    CHECK(files[1] == world.folder.path() / "data.txt");
+    const ResourceEntry& a = *world.manager->entries().at("a");
+    CHECK(a.descriptor == world.folder.path() / "a.xml");
+    REQUIRE(a.files.size() == 1);
+    CHECK(a.files[0].name == "data.txt");
+    CHECK(a.files[0].path == world.folder.path() / "data.txt");
 }
 
 TEST_CASE("chains of any sane length are followed, others are told") {

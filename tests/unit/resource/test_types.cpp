@@ -92,6 +92,7 @@ void declareBaskets(Registry& registry) {
                               .declaration();
     registry.resource<Basket, B>("basket", "One to three fruits.")
         .attribute("favourite", &B::favourite, "a fruit")
+        .live()
         .child(lid, 0, 1)
         .child(uniform)
         .children<Fruit>("fruits", 1, 3)
