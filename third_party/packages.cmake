@@ -17,6 +17,7 @@ if(TERRANE_OSMESA) # newer versions of Mesa have none: then it is EGL that draws
 endif()
 pkg_check_modules(glfw REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(libuv REQUIRED IMPORTED_TARGET libuv)
 
 # What contexts and windows come from.
 add_library(gl_systems INTERFACE)

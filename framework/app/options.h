@@ -26,6 +26,7 @@ struct PlayerOptions {
     double timeStep = 1.0 / 60; ///< seconds a frame; 0 follows the real time
     std::optional<View> view;   ///< instead of the archive's start view; in degrees
     bool keepGoing = false;     ///< draw what can be built, in spite of errors
+    bool showProblems = false;  ///< write the errors of the last load or reload over the picture
     bool debug = false;         ///< GL errors become diagnostics
     float maxAnisotropy = 0;    ///< 0: 1 on a software renderer, else the driver's limit
     bool recordFrames = false;  ///< keep the times of each frame for the metrics

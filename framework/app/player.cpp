@@ -2,6 +2,7 @@
 #include "app/player.h"
 
 #include "app/ground_pick.h"
+#include "app/problem_overlay.h"
 #include "app/start_view.h"
 #include "render/context.h"
 #include "render/program_bindings.h"
@@ -48,6 +49,7 @@ bool Player::load() {
     const bool drawable = open() && setScene(true);
     good_ = drawable && diagnostics_.errors() == 0;
     problemsEnd_ = diagnostics_.size();
+    showProblems();
     return drawable && (good_ || options_.keepGoing);
 }
 
@@ -165,6 +167,7 @@ void Player::observe(Scheduler& scheduler) {
 void Player::setStartView() {
     scene_->update(0, 0); // for the bounds
     controller_ = makeViewController(*settings_.root);
+    viewShape_ = viewShape(*settings_.root);
     if (settings_.view) controller_->view = *settings_.view;
     if (options_.view) controller_->view = controller_->fromDegrees(*options_.view);
 }
@@ -193,6 +196,7 @@ bool Player::frame() {
             tasks.waiting = again.waiting;
         }
     }
+    if (overlay_) overlay_->draw(target_->framebuffer());
     const Clock::time_point end = Clock::now();
     rememberCamera();
     followGround();

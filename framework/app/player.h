@@ -6,6 +6,7 @@
 #include "app/options.h"
 #include "app/player_element.h"
 #include "app/reload_report.h"
+#include "app/start_view.h"
 #include "app/trace.h"
 #include "core/diagnostic.h"
 #include "core/image.h"
@@ -31,6 +32,7 @@ class SceneManager;
 class Scheduler;
 class TerrainNode;
 class TileSampler;
+class ProblemOverlay;
 struct ProgramBindings;
 
 /// Plays one archive: loads it, moves its camera, draws its frames into a picture of its own. Owns
@@ -69,12 +71,18 @@ public:
     ReloadReport reload();
     /// The errors of the last load or reload; none when it was good.
     std::vector<Diagnostic> problems() const;
+    /// Where an edit may happen: the folders that names are looked up in, and those of all files
+    /// that were read.
+    std::vector<std::filesystem::path> sourceFolders() const;
 
     /// There is something to draw: what follows may be called.
     bool drawable() const { return controller_ != nullptr; }
     /// Draws the next frame; again, if a camera that has jumped turns out to be too near to the
     /// ground, or far from it. False when there is nothing to draw.
     bool frame();
+    /// Instead, where there is nothing to draw: an empty picture with the problems on it, if the
+    /// options ask for them.
+    void drawProblems();
     /// Draws frames until the picture is complete. False when it is not after so many, or when
     /// there is nothing to draw.
     bool drawUntilComplete(int mostFrames = kMostFrames);
@@ -138,6 +146,7 @@ private:
     bool rebind(Reload& reload, PlayerSettings settings);
     void account(const Reload& reload, ReloadReport& report);
     std::vector<ResourceEntry*> roots() const;
+    void showProblems();
     void followShape();
     bool setScheduler();
     void observe(Scheduler& scheduler);
@@ -165,6 +174,7 @@ private:
     std::unique_ptr<Library> library_;
     std::unique_ptr<GlContext> context_;
     std::unique_ptr<ProgramBindings> bindings_;
+    std::unique_ptr<ProblemOverlay> overlay_; ///< once there is a problem to show
     ReadbackTiming readbackTiming_;
     std::unique_ptr<RenderTarget> target_;
     std::shared_ptr<Scheduler> ownScheduler_; ///< of archives without one
@@ -174,6 +184,7 @@ private:
     std::vector<TerrainNode*> terrains_; ///< of the scene
     std::vector<TileSampler*> samplers_;
     std::unique_ptr<TerrainViewController> controller_;
+    ViewShape viewShape_;                            ///< that the controller is for
     bool good_ = false;                              ///< the archive is loaded without errors
     std::size_t firstProblem_ = 0, problemsEnd_ = 0; ///< of the last load or reload
 

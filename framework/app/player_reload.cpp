@@ -1,25 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/player.h"
 
-#include "app/start_view.h"
+#include "app/problem_overlay.h"
 #include "producer/tile_producer.h"
 #include "render/context.h"
+#include "render/render_target.h"
 #include "resource/library.h"
 #include "resource/reload.h"
 #include "scene/scene_manager.h"
 
 #include <algorithm>
+#include <set>
 #include <typeinfo>
 #include <utility>
 
 // The part of the player that follows edits.
 namespace terrane {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 bool samePlay(const PlayerSettings& a, const PlayerSettings& b) {
     return a.root.name == b.root.name && *a.camera == *b.camera && *a.method == *b.method &&
            a.scheduler.name == b.scheduler.name;
+}
+
+// A file that is still missing may come to be in any of them.
+void addFoldersBelow(const fs::path& top, std::set<fs::path>& folders) {
+    constexpr int kMost = 200;
+    constexpr int kDeepest = 3;
+    std::error_code error;
+    int count = 0;
+    fs::recursive_directory_iterator entry(fs::absolute(top, error).lexically_normal(), error), end;
+    for (; !error && entry != end && count < kMost; entry.increment(error)) {
+        if (!entry->is_directory(error)) continue;
+        const bool hidden = entry->path().filename().string().starts_with('.');
+        if (hidden || entry.depth() >= kDeepest) entry.disable_recursion_pending();
+        if (hidden) continue;
+        folders.insert(entry->path());
+        ++count;
+    }
 }
 
 } // namespace
@@ -36,6 +57,7 @@ ReloadReport Player::reload() {
         report = restart();
     }
     problemsEnd_ = diagnostics_.size();
+    showProblems();
     const std::chrono::duration<double, std::milli> time = Clock::now() - begin;
     report.milliseconds = time.count();
     metrics_.addReload(report);
@@ -50,6 +72,51 @@ std::vector<Diagnostic> Player::problems() const {
                                                       std::min(result.size(), firstProblem_)));
     std::erase_if(result, [](const Diagnostic& d) { return d.severity != Severity::error; });
     return result;
+}
+
+void Player::showProblems() {
+    if (!options_.showProblems || !context_) return;
+    const std::vector<Diagnostic> problems = this->problems();
+    if (problems.empty()) {
+        overlay_.reset();
+        return;
+    }
+    if (!overlay_) overlay_ = std::make_unique<ProblemOverlay>(registry_, *context_, *bindings_);
+    overlay_->show(problems);
+}
+
+void Player::drawProblems() {
+    if (!context_) return;
+    context_->makeCurrent();
+    followSize();
+    clear();
+    if (overlay_) overlay_->draw(target_->framebuffer());
+}
+
+std::vector<fs::path> Player::sourceFolders() const {
+    std::set<fs::path> folders;
+    std::error_code error;
+    const auto addParent = [&](const fs::path& file) {
+        if (file.empty()) return;
+        folders.insert(fs::absolute(file, error).lexically_normal().parent_path());
+        folders.insert(fs::weakly_canonical(file, error).parent_path()); // it may be a link
+    };
+    addParent(options_.archive / "."); // of a folder, the folder itself
+    addParent(options_.archive);
+    Diagnostics ignored;
+    if (const auto archive = resolveArchive(options_.archive, ignored)) {
+        const SearchPath search = archiveSearchPath(*archive, options_.paths);
+        for (const fs::path& folder : search.folders())
+            addParent(folder / ".");
+        addFoldersBelow(archive->parent_path(), folders);
+    }
+    if (!resources_) return {folders.begin(), folders.end()};
+    for (const auto& [name, entry] : resources_->entries()) {
+        addParent(entry->descriptor);
+        for (const UsedFile& file : entry->files)
+            addParent(file.path);
+    }
+    return {folders.begin(), folders.end()};
 }
 
 // There is nothing good to fall back to, so there is nothing to keep but the view.
@@ -132,16 +199,12 @@ void Player::account(const Reload& reload, ReloadReport& report) {
     std::sort(report.rebuilt.begin(), report.rebuilt.end());
 }
 
-// A terrain may have become a planet, or one of another size.
+// A terrain that has become a planet, or one of another size, is looked at in its own way.
 void Player::followShape() {
-    scene_->update(time_ * 1e6, 0); // for the bounds
-    auto controller = makeViewController(*settings_.root);
-    const bool same = typeid(*controller) == typeid(*controller_);
-    if (same) {
-        controller->view = controller_->view;
-        controller->groundHeight = controller_->groundHeight;
-    }
-    controller_ = std::move(controller);
+    if (viewShape(*settings_.root) == viewShape_) return;
+    const auto before = std::exchange(controller_, nullptr);
+    setStartView();
+    if (typeid(*before) == typeid(*controller_)) controller_->view = before->view;
 }
 
 } // namespace terrane

@@ -40,9 +40,9 @@ ViewHandler::Surroundings surroundingsOf(Player& player) {
             }};
 }
 
-bool isEscape(const InputEvent& event) {
+bool presses(const InputEvent& event, Key wanted) {
     const auto* key = std::get_if<KeyEvent>(&event);
-    return key && key->down && key->key == Key::escape;
+    return key && key->down && key->key == wanted;
 }
 
 } // namespace
@@ -64,7 +64,15 @@ void PlayerWindow::install(PlayerOptions& options) {
 }
 
 bool PlayerWindow::prepare(Player& player) {
-    if (!view_) view_ = std::make_unique<ViewHandler>(player.controller(), surroundingsOf(player));
+    if (!player.drawable()) {
+        view_.reset();
+        controller_ = nullptr;
+        return follow(player);
+    }
+    if (!view_ || controller_ != &player.controller()) {
+        controller_ = &player.controller(); // a reload may bring another one
+        view_ = std::make_unique<ViewHandler>(*controller_, surroundingsOf(player));
+    }
     if (!follow(player)) return false;
     const Clock::time_point now = Clock::now();
     const double elapsed =
@@ -85,8 +93,10 @@ bool PlayerWindow::follow(Player& player) {
 
 void PlayerWindow::handle(const std::vector<InputEvent>& events) {
     for (const InputEvent& event : events) {
-        if (isEscape(event))
+        if (presses(event, Key::escape))
             window_->close();
+        else if (presses(event, Key::f5))
+            reload_ = true;
         else if (view_)
             view_->handle(event);
     }
@@ -97,11 +107,8 @@ void PlayerWindow::show(const Player& player) {
     window_->present(picture.framebuffer(), picture.width(), picture.height());
 }
 
-void PlayerWindow::showNothing(const Player& player) {
-    while (window_ && !window_->closing()) {
-        show(player);
-        handle(window_->wait());
-    }
+void PlayerWindow::wait(double seconds) {
+    handle(window_->wait(seconds));
 }
 
 bool PlayerWindow::closing() const {

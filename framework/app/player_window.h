@@ -8,11 +8,13 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace terrane {
 
 class Player;
+class TerrainViewController;
 class ViewHandler;
 
 /// The window of a player: shows its frames, and hands what a person does in it to the player's
@@ -41,10 +43,13 @@ public:
     bool follow(Player& player);
     /// After a frame: presents it.
     void show(const Player& player);
-    /// Instead of frames, where there is nothing to draw: an empty picture until it is closed, if
-    /// it was opened at all.
-    void showNothing(const Player& player);
+    /// Sleeps until something happens in it, at most so many seconds.
+    void wait(double seconds);
     bool closing() const;
+    /// There is one: the display and OpenGL could be had.
+    bool isOpen() const { return window_ != nullptr; }
+    /// Whether F5 was pressed since the last call.
+    bool takeReload() { return std::exchange(reload_, false); }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -54,7 +59,9 @@ private:
     const std::string name_;
     Window* window_ = nullptr; ///< the player's
     std::unique_ptr<ViewHandler> view_;
+    TerrainViewController* controller_ = nullptr; ///< that the handler moves
     Clock::time_point last_{};
+    bool reload_ = false;
 };
 
 } // namespace terrane

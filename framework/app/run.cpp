@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/run.h"
 
+#include "app/edit_follower.h"
 #include "app/player.h"
 #include "app/player_window.h"
 #include "app/script_runner.h"
 #include "core/files.h"
 #include "core/image.h"
+#include "core/text.h"
 
 #include <chrono>
+#include <cmath>
 #include <istream>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -108,14 +111,40 @@ bool showFrame(Player& player, PlayerWindow* window) {
     return window->follow(player);
 }
 
-/// Until the window is closed, or so many frames have been shown.
-bool showFrames(Player& player, PlayerWindow& window, const RunOptions& options) {
-    const int frames = options.frames;
-    for (int i = 0; (frames < 0 || i < frames) && window.prepare(player); ++i) {
-        if (!player.frame()) return false;
+std::string counted(std::size_t count, const char* what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+void tellReload(const ReloadReport& report, const RunOptions& options, Messages& err) {
+    if (!report.changed || options.logLevel > LogLevel::info) return;
+    if (!report.good) return err.tell("not reloaded; waiting for the repair\n");
+    int tiles = 0;
+    for (const auto& [producer, count] : report.tilesInvalidated)
+        tiles += count;
+    std::vector<std::string> names = report.rebuilt;
+    constexpr std::size_t kTold = 6;
+    if (names.size() > kTold) names.resize(kTold);
+    err.tell("reloaded " + counted(report.rebuilt.size(), "resource") + ", " +
+             counted(std::size_t(tiles), "tile") + " to make anew, in " +
+             std::to_string(std::lround(report.milliseconds)) + " ms" +
+             (names.empty() ? "" : ": " + listOfNames(names)) +
+             (names.size() < report.rebuilt.size() ? "...\n" : "\n"));
+}
+
+/// Until the window is closed, or so many frames have been shown. Follows every edit; what is wrong
+/// is shown, and waits for its repair. False when nothing could be drawn at last.
+bool showFrames(Player& player, PlayerWindow& window, const RunOptions& options, Messages& err) {
+    EditFollower edits(player);
+    for (int i = 0; (options.frames < 0 || i < options.frames) && window.prepare(player); ++i) {
+        const auto report = window.takeReload() ? edits.reload() : edits.follow();
+        if (report) tellReload(*report, options, err);
+        if (!player.frame()) {
+            if (!player.drawable()) player.drawProblems();
+            window.wait(0.05); // nothing moves but the files
+        }
         window.show(player);
     }
-    return true;
+    return player.drawable();
 }
 
 /// Runs all lines, also after one that failed, so that one run tells everything.
@@ -197,6 +226,7 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     // A window shows what can be drawn, whatever else is wrong; scripts are for what is right.
     const bool watched = options.window && options.script.empty();
     playerOptions.keepGoing |= watched;
+    playerOptions.showProblems |= watched;
     std::optional<PlayerWindow> window;
     if (options.window) window.emplace(nameOf(playerOptions.archive)).install(playerOptions);
     Player player(registry, playerOptions);
@@ -209,12 +239,10 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
         runInteractively(player, window ? &*window : nullptr, streams);
     else if (good && !options.script.empty())
         good = runScript(player, window ? &*window : nullptr, options, err);
-    else if (good && window)
-        good = showFrames(player, *window, options);
+    else if (watched && window->isOpen() && (good || options.frames < 0))
+        good = showFrames(player, *window, options, err);
     else if (good)
         good = drawFrames(player, options, err);
-    else if (watched && options.frames < 0)
-        window->showNothing(player);
     // What a run that failed early can tell of itself is still worth having.
     if (player.resources()) good &= writeResults(player, options, err);
     if (good && player.frames() == 0 && !options.screenshot.empty()) {

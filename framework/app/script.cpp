@@ -194,13 +194,13 @@ constexpr Rule kCommands[] = {
     {"wait", "wait tiles [MAXFRAMES]", parseWait},
     {"screenshot", "screenshot FILE", parseName<ScreenshotCommand>},
     {"mark", "mark", parseNothing<MarkCommand>},
+    {"reload", "reload", parseNothing<ReloadCommand>},
     {"archive", "archive PATH", parseName<ArchiveCommand>},
     {"needs", "needs PATH", parseName<NeedsCommand>},
 };
 
 constexpr Rule kUnbuilt[] = {
     {"set", "set RESOURCE.ATTRIBUTE VALUE", nullptr},
-    {"reload", "reload", nullptr},
     {"key", "key NAME [down|up]", nullptr},
     {"mouse", "mouse move X Y, mouse down|up BUTTON", nullptr},
     {"wheel", "wheel N", nullptr},

@@ -32,6 +32,7 @@ struct ScreenshotCommand {
     std::string file;
 };
 struct MarkCommand {};
+struct ReloadCommand {};
 /// `archive PATH` and `needs PATH`: for who runs fixtures.
 struct ArchiveCommand {
     std::string path;
@@ -68,7 +69,7 @@ struct ExpectNoErrorsCommand {};
 
 using ScriptCommand =
     std::variant<CameraCommand, FramesCommand, WaitCommand, ScreenshotCommand, MarkCommand,
-                 ArchiveCommand, NeedsCommand, UnbuiltCommand, ExpectTilesCommand,
+                 ReloadCommand, ArchiveCommand, NeedsCommand, UnbuiltCommand, ExpectTilesCommand,
                  ExpectHeightCommand, ExpectImageCommand, ExpectDiagnosticCommand,
                  ExpectMetricCommand, ExpectNoErrorsCommand>;
 

@@ -59,10 +59,10 @@ std::string placeInScript(const Place& place, const fs::path& folder) {
 
 std::string ScriptRunner::run(const ScriptLine& line) {
     if (!line.command) return line.problem;
-    const bool asksForDiagnostics =
-        std::holds_alternative<ExpectDiagnosticCommand>(*line.command) ||
-        std::holds_alternative<ExpectNoErrorsCommand>(*line.command);
-    if (!asksForDiagnostics && !player_.drawable()) return kNothing;
+    const bool drawsNothing = std::holds_alternative<ExpectDiagnosticCommand>(*line.command) ||
+                              std::holds_alternative<ExpectNoErrorsCommand>(*line.command) ||
+                              std::holds_alternative<ReloadCommand>(*line.command);
+    if (!drawsNothing && !player_.drawable()) return kNothing;
     return std::visit([this](const auto& command) { return run(command); }, *line.command);
 }
 
@@ -115,6 +115,12 @@ std::string ScriptRunner::run(const ScreenshotCommand& command) {
 
 std::string ScriptRunner::run(const MarkCommand&) {
     player_.mark();
+    return {};
+}
+
+// What is wrong is told as always, and is for `expect` to judge: a script may want it so.
+std::string ScriptRunner::run(const ReloadCommand&) {
+    player_.reload();
     return {};
 }
 

@@ -45,6 +45,7 @@ private:
     std::string run(const WaitCommand& command);
     std::string run(const ScreenshotCommand& command);
     std::string run(const MarkCommand& command);
+    std::string run(const ReloadCommand& command);
     std::string run(const ArchiveCommand& command);
     std::string run(const NeedsCommand& command);
     std::string run(const UnbuiltCommand& command);

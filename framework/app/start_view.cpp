@@ -51,13 +51,26 @@ TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains) {
     return terrains.empty() ? nullptr : terrains.front();
 }
 
+namespace {
+
+const TerrainNode* firstTerrain(const SceneNode& root) {
+    const std::vector<TerrainNode*> terrains = terrainsOf(root);
+    return terrains.empty() ? nullptr : terrains.front();
+}
+
+} // namespace
+
+ViewShape viewShape(const SceneNode& root) {
+    const TerrainNode* const terrain = firstTerrain(root);
+    if (!terrain) return {};
+    return {terrain->deformation().shape(), terrain->deformation().radius()};
+}
+
 std::unique_ptr<TerrainViewController> makeViewController(const SceneNode& root) {
     std::unique_ptr<TerrainViewController> controller;
-    const std::vector<TerrainNode*> terrains = terrainsOf(root);
-    const TerrainNode* const terrain = terrains.empty() ? nullptr : terrains.front();
-    const double radius = terrain ? terrain->deformation().radius() : 0;
+    const TerrainNode* const terrain = firstTerrain(root);
+    const auto [shape, radius] = viewShape(root);
     double d = terrain ? terrain->parameters().size : sizeOf(root.worldBounds);
-    const auto shape = terrain ? terrain->deformation().shape() : Deformation::Shape::flat;
     if (shape == Deformation::Shape::sphere) {
         controller = std::make_unique<PlanetViewController>(radius);
         d = 6 * radius;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "terrain/deformation.h"
 #include "ui/view_controller.h"
 
 #include <memory>
@@ -27,5 +28,13 @@ TerrainNode* terrainBelowCamera(const std::vector<TerrainNode*>& terrains);
 /// d = size (flat), 6 radii (planet) or 0.9 radii (cylinder) (terrain reference 5.1). Without a
 /// terrain, a flat one as far away as the scene is large.
 std::unique_ptr<TerrainViewController> makeViewController(const SceneNode& root);
+
+/// What the view controller depends on: the first terrain's shape, and its radius in metres.
+struct ViewShape {
+    Deformation::Shape shape = Deformation::Shape::flat;
+    double radius = 0;
+    bool operator==(const ViewShape&) const = default;
+};
+ViewShape viewShape(const SceneNode& root);
 
 } // namespace terrane

@@ -104,6 +104,7 @@ void Diagnostics::report(Diagnostic diagnostic) {
         if (diagnostic.severity == Severity::error) ++errors_;
         if (diagnostic.severity == Severity::warning) ++warnings_;
         list_.push_back(diagnostic);
+        ++reported_;
         listener = listener_;
     }
     if (listener) listener(diagnostic);
@@ -139,6 +140,11 @@ std::size_t Diagnostics::warnings() const {
 std::size_t Diagnostics::size() const {
     std::lock_guard lock(mutex_);
     return list_.size();
+}
+
+std::size_t Diagnostics::reported() const {
+    std::lock_guard lock(mutex_);
+    return reported_;
 }
 
 std::vector<Diagnostic> Diagnostics::all() const {

@@ -44,6 +44,8 @@ public:
     std::size_t errors() const;
     std::size_t warnings() const;
     std::size_t size() const; ///< of all, notes too
+    /// How many there ever were, forgotten ones too: what came last stands at the end of all().
+    std::size_t reported() const;
     /// A copy, in the order of the reports.
     std::vector<Diagnostic> all() const;
     void clear();
@@ -56,6 +58,7 @@ private:
     mutable std::mutex mutex_;
     std::vector<Diagnostic> list_;
     std::unordered_multimap<std::size_t, std::size_t> indexByHash_; ///< of code, place, message
+    std::size_t reported_ = 0;
     std::size_t errors_ = 0;
     std::size_t warnings_ = 0;
     Listener listener_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/text_batch.h"
 
+#include "render/framebuffer.h"
+
 #include <glad/gl.h>
 
 #include <algorithm>
@@ -51,6 +53,28 @@ void TextBatch::draw() {
     buffer_.assign(std::as_bytes(std::span(vertices_)), BufferUsage::stream);
     array_.bind();
     context_.gl().DrawArrays(GL_TRIANGLES, 0, GLsizei(vertices_.size()));
+}
+
+void TextBatch::blend(Framebuffer& framebuffer, Program& program, const UniformHandle& sampler,
+                      const Font& font) {
+    if (empty()) return;
+    sampler.set(font.texture());
+    auto& blend = framebuffer.state.blend;
+    for (auto& buffer : blend) {
+        buffer = {.enabled = true,
+                  .source = BlendFactor::sourceAlpha,
+                  .destination = BlendFactor::oneMinusSourceAlpha,
+                  .alphaSource = BlendFactor::sourceAlpha,
+                  .alphaDestination = BlendFactor::oneMinusSourceAlpha};
+    }
+    // Tiles may overlap, and must not hide one another.
+    const bool writesDepth = std::exchange(framebuffer.state.write.depth, false);
+    framebuffer.use();
+    program.use();
+    draw();
+    framebuffer.state.write.depth = writesDepth;
+    for (auto& buffer : blend)
+        buffer.enabled = false;
 }
 
 } // namespace terrane

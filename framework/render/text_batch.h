@@ -3,6 +3,7 @@
 
 #include "render/buffer.h"
 #include "render/font.h"
+#include "render/program.h"
 #include "render/vertex_array.h"
 
 #include <string_view>
@@ -13,6 +14,8 @@
 #include <glm/vec4.hpp>
 
 namespace terrane {
+
+class Framebuffer;
 
 /// Lines of text, gathered and then drawn at once, two triangles a character. The program reads at
 /// location 0 a vec4: x and y in clip space, u and v of the font's texture; at location 1 the
@@ -36,6 +39,10 @@ public:
     bool empty() const { return vertices_.empty(); }
     /// With the program and the framebuffer that are current.
     void draw();
+    /// Over the picture in a framebuffer, with the program's sampler for the letters. Blending is
+    /// switched off afterwards, as archives of the original expect.
+    void blend(Framebuffer& framebuffer, Program& program, const UniformHandle& sampler,
+               const Font& font);
 
 private:
     struct Vertex {

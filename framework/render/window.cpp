@@ -182,6 +182,12 @@ const std::vector<InputEvent>& Window::wait() {
     return events_;
 }
 
+const std::vector<InputEvent>& Window::wait(double seconds) {
+    events_.clear();
+    glfwWaitEventsTimeout(seconds);
+    return events_;
+}
+
 void Window::present(const Framebuffer& picture, int width, int height) {
     // Mesa's software renderers ask for the size of the window when the viewport changes, and only
     // for a bound framebuffer; blitting by name would show a picture cut to the old size.

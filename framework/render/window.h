@@ -48,6 +48,8 @@ public:
     const std::vector<InputEvent>& poll();
     /// Sleeps until something happens.
     const std::vector<InputEvent>& wait();
+    /// The same, but at most so many seconds.
+    const std::vector<InputEvent>& wait(double seconds);
     /// Shows the read buffer of a framebuffer of width x height pixels, stretched over the window,
     /// at the display's rate.
     void present(const Framebuffer& picture, int width, int height);

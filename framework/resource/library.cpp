@@ -250,6 +250,24 @@ std::optional<fs::path> resolveArchive(const fs::path& path, Diagnostics& diagno
     return std::nullopt;
 }
 
+namespace {
+
+void addBuiltIn(SearchPath& search) {
+    std::error_code error;
+    const fs::path resources = homeFolder() / "resources";
+    for (const char* name : {"shaders", "meshes", "methods", "textures", "fonts"}) {
+        if (fs::is_directory(resources / name, error)) search.add(resources / name);
+    }
+}
+
+} // namespace
+
+SearchPath builtInSearchPath() {
+    SearchPath search;
+    addBuiltIn(search);
+    return search;
+}
+
 SearchPath archiveSearchPath(const fs::path& archive, const std::vector<fs::path>& more) {
     SearchPath search;
     fs::path folder = archive.parent_path();
@@ -265,10 +283,7 @@ SearchPath archiveSearchPath(const fs::path& archive, const std::vector<fs::path
     for (const char* name : {"textures", "shaders", "meshes", "methods", "ui", "data"}) {
         if (fs::is_directory(above / name, error)) search.add(above / name);
     }
-    const fs::path resources = homeFolder() / "resources";
-    for (const char* name : {"shaders", "meshes", "methods", "textures", "fonts"}) {
-        if (fs::is_directory(resources / name, error)) search.add(resources / name);
-    }
+    addBuiltIn(search);
     return search;
 }
 

@@ -99,4 +99,7 @@ std::optional<std::filesystem::path> resolveArchive(const std::filesystem::path&
 SearchPath archiveSearchPath(const std::filesystem::path& archive,
                              const std::vector<std::filesystem::path>& more);
 
+/// The folders of Terrane's own resources.
+SearchPath builtInSearchPath();
+
 } // namespace terrane

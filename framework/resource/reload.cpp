@@ -83,6 +83,7 @@ void Reload::findAffected() {
         ResourceEntry* const entry = queue[next];
         for (ResourceEntry* const dependent : entry->dependents) {
             const auto& from = dependent->madeFrom;
+            if (dependent->state == ResourceEntry::State::unloaded) continue; // no resource
             const bool madeFrom = std::find(from.begin(), from.end(), entry) != from.end();
             // Who names what is gone has to tell so.
             if (madeFrom || gone_.contains(entry)) add(dependent);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/message_log.h"
 
+#include <algorithm>
+
 namespace terrane {
 
 namespace {
@@ -24,13 +26,13 @@ std::string lineOf(const Diagnostic& d) {
 } // namespace
 
 void MessageLog::update(const Diagnostics& diagnostics) {
-    const std::size_t problems = diagnostics.errors() + diagnostics.warnings();
-    if (problems == problems_) return;
-    problems_ = problems;
+    const std::size_t reported = diagnostics.reported();
+    if (reported == seen_) return;
     const auto all = diagnostics.all();
-    if (all.size() < seen_) seen_ = 0; // they were cleared
-    for (; seen_ < all.size(); ++seen_) {
-        const Diagnostic& d = all[seen_];
+    const std::size_t fresh = std::min(reported - seen_, all.size());
+    seen_ = reported;
+    for (std::size_t i = all.size() - fresh; i < all.size(); ++i) {
+        const Diagnostic& d = all[i];
         lines_.push_back({isRemark(d) ? Severity::note : d.severity, lineOf(d)});
         if (lines_.size() > kMostLines) lines_.pop_front();
         visible = visible || !isRemark(d);

@@ -30,8 +30,7 @@ public:
 
 private:
     std::deque<Line> lines_;
-    std::size_t seen_ = 0;     ///< diagnostics taken over
-    std::size_t problems_ = 0; ///< warnings and errors among them
+    std::size_t seen_ = 0; ///< diagnostics taken over, of all that were ever reported
 };
 
 } // namespace terrane

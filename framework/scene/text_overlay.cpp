@@ -4,8 +4,6 @@
 #include "render/framebuffer.h"
 #include "scene/scene_manager.h"
 
-#include <utility>
-
 namespace terrane {
 
 TextTask::TextTask(const char* name, const TextDescription& description, SceneManager& scene)
@@ -32,24 +30,7 @@ bool TextTask::run() {
     batch_.begin({area.width, area.height});
     pen_ = firstLine(area.height);
     write();
-    if (batch_.empty()) return true;
-    sampler_.set(font_->texture());
-    auto& blend = framebuffer.state.blend;
-    for (auto& buffer : blend) {
-        buffer = {.enabled = true,
-                  .source = BlendFactor::sourceAlpha,
-                  .destination = BlendFactor::oneMinusSourceAlpha,
-                  .alphaSource = BlendFactor::sourceAlpha,
-                  .alphaDestination = BlendFactor::oneMinusSourceAlpha};
-    }
-    // Tiles may overlap, and must not hide one another.
-    const bool writesDepth = std::exchange(framebuffer.state.write.depth, false);
-    framebuffer.use();
-    program_->use();
-    batch_.draw();
-    framebuffer.state.write.depth = writesDepth;
-    for (auto& buffer : blend)
-        buffer.enabled = false; // as archives of the original expect
+    batch_.blend(framebuffer, *program_, sampler_, *font_);
     return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/terrain_resource.h"
 
+#include "resource/build_context.h"
 #include "terrain/cylindrical_deformation.h"
 #include "terrain/spherical_deformation.h"
 #include "terrain/terrain_node.h"

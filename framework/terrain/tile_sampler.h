@@ -78,12 +78,12 @@ private:
 
     Parameters parameters_;
     std::shared_ptr<TileProducer> producer_; ///< whose tiles are held, whatever a reload brings
-    const TerrainNode* terrain_ = nullptr; ///< whose quads are held
-    std::vector<Held> held_;               ///< by index of the quad
-    std::vector<int> heldQuads_;           ///< indices with a tile
-    std::vector<int> queue_;               ///< quads to visit, coarse ones first
-    bool refused_ = false;                 ///< the last update did not get all tiles
-    int reportedNeed_ = 0;                 ///< slots that the last report asked for
+    const TerrainNode* terrain_ = nullptr;   ///< whose quads are held
+    std::vector<Held> held_;                 ///< by index of the quad
+    std::vector<int> heldQuads_;             ///< indices with a tile
+    std::vector<int> queue_;                 ///< quads to visit, coarse ones first
+    bool refused_ = false;                   ///< the last update did not get all tiles
+    int reportedNeed_ = 0;                   ///< slots that the last report asked for
 };
 
 /// <tileSampler>, <tileSamplerZ>
