@@ -61,7 +61,7 @@ ReloadReport Player::reload() {
     const std::chrono::duration<double, std::milli> time = Clock::now() - begin;
     report.milliseconds = time.count();
     metrics_.addReload(report);
-    if (report.changed && report.good) quietFrames_ = 0;
+    quietFrames_ = 0; // even where nothing was rebuilt, problems came or went
     return report;
 }
 

@@ -25,7 +25,8 @@ public:
 
     /// What to show from now on; nothing hides it.
     void show(const std::vector<Diagnostic>& problems);
-    /// Over the framebuffer's viewport, on a dark band at its top. The state stays as it is.
+    /// Over the framebuffer's viewport, on a dark band at its top, as many lines as fit. The state
+    /// stays as it is.
     void draw(Framebuffer& framebuffer);
 
 private:
@@ -36,7 +37,7 @@ private:
     };
 
     void add(const Diagnostic& diagnostic);
-    float lineHeight() const { return font_->tileHeight(); }
+    std::vector<Line> wrapped(float width, float size, std::size_t mostLines) const;
 
     Diagnostics diagnostics_; ///< of our own resources: there should be none
     Library library_;

@@ -122,7 +122,9 @@ private:
         }
         for (const fs::path& path : wanted) {
             const auto [folder, isNew] = folders_.try_emplace(path);
-            if (isNew) start(path, folder->second);
+            if (!isNew) continue;
+            start(path, folder->second);
+            notice(); // nobody knows what happened before
         }
     }
 
