@@ -9,8 +9,9 @@ namespace terrane {
 
 namespace {
 
-constexpr int kMargin = 6; // pixels
-constexpr float kSmallest = 12, kLinesOnPicture = 40;
+constexpr int kMargin = 6;                            // pixels
+constexpr float kSmallest = 12, kLinesOnPicture = 40; // pixels, lines
+constexpr float kCovered = 0.6F;                      // of the picture, at most
 constexpr glm::u8vec4 kRed{255, 110, 90, 255}, kYellow{255, 210, 80, 255},
     kGrey{205, 205, 205, 255};
 
@@ -72,7 +73,7 @@ void ProblemOverlay::draw(Framebuffer& framebuffer) {
 
     const float size = std::clamp(float(area.height) / kLinesOnPicture, kSmallest,
                                   std::max(kSmallest, font_->tileHeight()));
-    const auto fitting = std::size_t(std::max(1.0F, float(area.height - 2 * kMargin) / size));
+    const auto fitting = std::size_t(std::max(1.0F, kCovered * float(area.height) / size));
     const std::vector<Line> lines = wrapped(float(area.width - 2 * kMargin), size, fitting);
     const int height = int(size * float(lines.size())) + 2 * kMargin;
     framebuffer.state.scissor = {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* kArchive = R"(<archive>
     <multithreadScheduler name="scheduler" nthreads="2"/>
+    <multithreadScheduler name="scheduler2"/>
     <tileCache name="residualCache" scheduler="scheduler">
         <cpuFloatTileStorage tileSize="29" channels="1" capacity="60"/>
     </tileCache>
@@ -26,11 +27,12 @@ constexpr const char* kArchive = R"(<archive>
     <normalProducer name="normals" cache="normalCache" elevations="elevations"/>
 
     <module name="branchShader" version="330" source="branch.glsl"/>
+    <program name="branchProgram"><module name="branchShader"/></program>
     <tileCache name="branchCache" scheduler="scheduler">
         <gpuTileStorage tileSize="29" nTiles="500" internalformat="RGB32F" format="RGB" type="FLOAT"
             min="LINEAR" mag="LINEAR"/>
     </tileCache>
-    <elevationProducer name="branch" cache="branchCache" upsampleProg="branchShader;"
+    <elevationProducer name="branch" cache="branchCache" upsampleProg="branchProgram"
         noise="10,5,3,2,1,1"/>
 
     <terrainNode name="relief" size="400" zmin="0" zmax="100" splitFactor="2" maxLevel="5"/>
@@ -41,6 +43,8 @@ constexpr const char* kArchive = R"(<archive>
     </module>
     <module name="sky" version="330" source="sky.glsl"/>
 
+    <font name="letters" tex="defaultFontTiles" nCols="16" nRows="6" minChar="32" maxChar="127"
+        invalidChar="63" charWidths="16"/>
     <sequence name="updateGround">
         <updateTerrain name="this.terrain"/>
         <updateTileSamplers name="this.terrain"/>
@@ -54,11 +58,12 @@ constexpr const char* kArchive = R"(<archive>
         <drawMesh name="whole"/>
         <foreach var="g" flag="object"><callMethod name="$g.update"/></foreach>
         <foreach var="g" flag="object"><callMethod name="$g.draw"/></foreach>
-        <showLog maxLines="0"/>
+        <showLog maxLines="0" font="letters"/>
     </sequence>
     <node name="scene">
         <node flags="camera"><method id="draw" value="drawFrame"/></node>
         <node name="ground" flags="object">
+            <bounds xmin="-400" xmax="400" ymin="-400" ymax="400" zmin="0" zmax="100"/>
             <field id="terrain" value="relief"/>
             <tileSampler id="e" sampler="elevationSampler" producer="elevations"/>
             <tileSampler id="n" sampler="normalSampler" producer="normals"/>
