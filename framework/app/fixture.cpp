@@ -126,6 +126,8 @@ private:
             const std::string problem = runner.run(line);
             if (!problem.empty()) failLine(line, problem);
         }
+        for (const std::string& update : runner.updates())
+            result_.report += update + "\n";
         failErrors(player, runner.expectedDiagnostics());
     }
 

@@ -12,13 +12,14 @@ class Registry;
 struct FixtureOptions {
     std::vector<std::filesystem::path> data; ///< folders of data, also searched for names
     std::filesystem::path output;            ///< for pictures of failures and screenshots
-    bool updatePictures = false;             ///< write the expected pictures anew
+    bool updatePictures = false; ///< write the expected pictures anew where others are drawn
+    std::filesystem::path junit; ///< where a report for build servers goes; empty: nowhere
 };
 
 struct FixtureResult {
     enum class Status { passed, failed, skipped };
     Status status = Status::passed;
-    std::string report; ///< why it failed or was skipped; lines, each with its end
+    std::string report; ///< why it failed or was skipped, pictures that were updated; lines
 };
 
 /// Folders with a file `script` at or below a path, sorted.

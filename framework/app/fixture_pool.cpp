@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/fixture_pool.h"
 
+#include "app/fixture_report.h"
 #include "core/files.h"
 
 #include <algorithm>
@@ -90,6 +91,7 @@ public:
     }
 
     int passed = 0, failed = 0, skipped = 0;
+    std::vector<FixtureCase> cases; ///< in the order in which they ended
 
 private:
     void start(const fs::path& folder) {
@@ -174,6 +176,7 @@ private:
                                                           : failed;
         ++counter;
         const std::chrono::duration<double> seconds = Clock::now() - process.start;
+        cases.push_back({process.folder, result, seconds.count()});
         char time[32];
         std::snprintf(time, sizeof time, " (%.1f s)", seconds.count());
         out_ << word(result.status) << " " << shownPath(process.folder) << time << "\n";
@@ -205,6 +208,13 @@ int testFixtures(const Registry& registry, const std::vector<fs::path>& paths,
     pool.run(fixtures);
     out << pool.passed << " passed, " << pool.failed << " failed, " << pool.skipped << " skipped"
         << std::endl;
+    if (options.junit.empty()) return pool.failed == 0 ? 0 : 1;
+    std::sort(pool.cases.begin(), pool.cases.end(),
+              [](const auto& a, const auto& b) { return a.folder < b.folder; });
+    if (!writeFile(options.junit, junitReport(pool.cases))) {
+        out << "can't write " << shownPath(options.junit) << std::endl;
+        return 1;
+    }
     return pool.failed == 0 ? 0 : 1;
 }
 

@@ -84,6 +84,7 @@ std::unique_ptr<Library> Player::readArchive() {
     if (!archive) return nullptr;
     auto library =
         std::make_unique<Library>(archiveSearchPath(*archive, options_.paths), diagnostics_);
+    applySettings(*library);
     return library->addArchive(*archive) ? std::move(library) : nullptr;
 }
 

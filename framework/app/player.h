@@ -11,6 +11,7 @@
 #include "core/diagnostic.h"
 #include "core/image.h"
 #include "render/pixel_readback.h"
+#include "resource/attribute_edit.h"
 #include "ui/view_controller.h"
 
 #include <chrono>
@@ -69,6 +70,11 @@ public:
     /// so do values that were set. An archive that had errors from the start is loaded anew. Errors
     /// and warnings of the reload before are forgotten.
     ReloadReport reload();
+    /// Gives an attribute of an entry of the archive another value, by the same way as an edit of
+    /// its file, but leaves the file alone. It counts until the file says something else there.
+    /// Empty when all went well; else why not, and nothing has changed.
+    std::string set(const std::string& resource, const std::string& attribute,
+                    const std::string& value);
     /// The errors of the last load or reload; none when it was good.
     std::vector<Diagnostic> problems() const;
     /// Where an edit may happen: the folders that names are looked up in, and those of all files
@@ -131,12 +137,21 @@ public:
     std::string traceJson() const;
 
 private:
+    /// An attribute that does not have the value that its file gives it.
+    struct AttributeSetting {
+        std::filesystem::path file;
+        AttributePlace place;
+        std::string value;
+        std::optional<std::string> original; ///< what the file said then
+    };
+
     /// What happened in a frame may have consequences in the next: so long must nothing happen.
     static constexpr int kQuietFrames = 3;
     using Clock = std::chrono::steady_clock;
 
     bool open();
     std::unique_ptr<Library> readArchive();
+    void applySettings(Library& library);
     bool openContext();
     bool setScene(bool rootRequired);
     bool findRoot(PlayerSettings& settings, bool required);
@@ -184,7 +199,8 @@ private:
     std::vector<TerrainNode*> terrains_; ///< of the scene
     std::vector<TileSampler*> samplers_;
     std::unique_ptr<TerrainViewController> controller_;
-    ViewShape viewShape_;                            ///< that the controller is for
+    ViewShape viewShape_; ///< that the controller is for
+    std::vector<AttributeSetting> attributeSettings_;
     bool good_ = false;                              ///< the archive is loaded without errors
     std::size_t firstProblem_ = 0, problemsEnd_ = 0; ///< of the last load or reload
 

@@ -2,6 +2,8 @@
 #include "app/player.h"
 
 #include "app/problem_overlay.h"
+#include "core/files.h"
+#include "core/text.h"
 #include "producer/tile_producer.h"
 #include "render/context.h"
 #include "render/render_target.h"
@@ -10,6 +12,7 @@
 #include "scene/scene_manager.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <typeinfo>
 #include <utility>
@@ -117,6 +120,50 @@ std::vector<fs::path> Player::sourceFolders() const {
             addParent(file.path);
     }
     return {folders.begin(), folders.end()};
+}
+
+std::string Player::set(const std::string& resource, const std::string& attribute,
+                        const std::string& value) {
+    if (!good_) return "the archive has errors";
+    const auto& entries = resources_->entries();
+    const auto found = entries.find(resource);
+    if (found == entries.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, entry] : entries)
+            names.push_back(name);
+        const std::string near = nearestName(resource, names);
+        return "there is no resource " + inQuotes(resource) +
+               (near.empty() ? "" : "; did you mean '" + near + "'?");
+    }
+    const fs::path file = found->second->descriptor;
+    const auto text = readFile(file);
+    if (!text) return inQuotes(resource) + " is not described in a file";
+    const std::vector<AttributeSetting> before = attributeSettings_;
+    const AttributePlace place{resource, attribute};
+    std::erase_if(attributeSettings_, [&](const AttributeSetting& s) {
+        return s.file == file && s.place.resource == resource && s.place.attribute == attribute;
+    });
+    attributeSettings_.push_back({file, place, value, attributeValue(*text, place)});
+    if (reload().good) return {};
+    const std::vector<Diagnostic> problems = this->problems();
+    attributeSettings_ = before;
+    reload(); // forgets the problems
+    return problems.empty() ? "it can't be set" : toString(problems.front());
+}
+
+void Player::applySettings(Library& library) {
+    std::map<fs::path, std::string> texts;
+    std::erase_if(attributeSettings_, [&](const AttributeSetting& setting) {
+        auto [text, isNew] = texts.try_emplace(setting.file);
+        if (isNew) text->second = readFile(setting.file).value_or("");
+        if (attributeValue(text->second, setting.place) != setting.original) return true;
+        if (auto edited = withAttribute(text->second, setting.place, setting.value))
+            text->second = std::move(*edited);
+        return false;
+    });
+    for (auto& [file, text] : texts) {
+        if (!text.empty()) library.setText(file, std::move(text));
+    }
 }
 
 // There is nothing good to fall back to, so there is nothing to keep but the view.

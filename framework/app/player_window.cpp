@@ -3,49 +3,10 @@
 
 #include "app/player.h"
 #include "render/render_target.h"
-#include "scene/scene_manager.h"
-#include "ui/view_handler.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <utility>
 
 namespace terrane {
-
-namespace {
-
-constexpr const char* kLight = "light"; ///< the flag of the node that shines
-
-/// Moves a node around the origin of its parent.
-void turnAround(SceneNode& node, double azimuth, double elevation) {
-    const glm::dvec3 position(node.localToParent[3]);
-    const double distance = glm::length(position);
-    if (distance == 0) return;
-    const double around = std::atan2(position.y, position.x) + azimuth;
-    // Straight above, there would be no azimuth to keep.
-    constexpr double kSteepest = glm::half_pi<double>() - 1e-6;
-    const double up = std::asin(std::clamp(position.z / distance, -1.0, 1.0)) + elevation;
-    const double steep = std::clamp(up, -kSteepest, kSteepest);
-    const glm::dvec3 direction(std::cos(steep) * std::cos(around),
-                               std::cos(steep) * std::sin(around), std::sin(steep));
-    node.localToParent[3] = glm::dvec4(distance * direction, 1);
-}
-
-ViewHandler::Surroundings surroundingsOf(Player& player) {
-    return {[&player](double x, double y) { return player.groundAt(x, y); },
-            [&player](double azimuth, double elevation) {
-                const auto& lights = player.scene()->nodes(kLight);
-                if (!lights.empty()) turnAround(*lights.front(), azimuth, elevation);
-            }};
-}
-
-bool presses(const InputEvent& event, Key wanted) {
-    const auto* key = std::get_if<KeyEvent>(&event);
-    return key && key->down && key->key == wanted;
-}
-
-} // namespace
 
 PlayerWindow::PlayerWindow(std::string name)
     : name_(std::move(name)) {}
@@ -64,41 +25,32 @@ void PlayerWindow::install(PlayerOptions& options) {
 }
 
 bool PlayerWindow::prepare(Player& player) {
-    if (!player.drawable()) {
-        view_.reset();
-        controller_ = nullptr;
-        return follow(player);
-    }
-    if (!view_ || controller_ != &player.controller()) {
-        controller_ = &player.controller(); // a reload may bring another one
-        view_ = std::make_unique<ViewHandler>(*controller_, surroundingsOf(player));
-    }
     if (!follow(player)) return false;
     const Clock::time_point now = Clock::now();
     const double elapsed =
         player.frames() == 0 ? 0 : std::chrono::duration<double>(now - last_).count();
     last_ = now;
-    view_->advance(elapsed);
+    input_.advance(player, elapsed);
     return true;
 }
 
 bool PlayerWindow::follow(Player& player) {
-    handle(window_->poll());
+    handle(player, window_->poll());
     while (!window_->closing() && window_->width() * window_->height() == 0)
-        handle(window_->wait());
+        handle(player, window_->wait());
     if (window_->closing()) return false;
     player.resize(window_->width(), window_->height());
     return true;
 }
 
-void PlayerWindow::handle(const std::vector<InputEvent>& events) {
+void PlayerWindow::handle(Player& player, const std::vector<InputEvent>& events) {
     for (const InputEvent& event : events) {
         if (presses(event, Key::escape))
             window_->close();
         else if (presses(event, Key::f5))
             reload_ = true;
-        else if (view_)
-            view_->handle(event);
+        else
+            input_.handle(player, event);
     }
 }
 
@@ -107,8 +59,8 @@ void PlayerWindow::show(const Player& player) {
     window_->present(picture.framebuffer(), picture.width(), picture.height());
 }
 
-void PlayerWindow::wait(double seconds) {
-    handle(window_->wait(seconds));
+void PlayerWindow::wait(Player& player, double seconds) {
+    handle(player, window_->wait(seconds));
 }
 
 bool PlayerWindow::closing() const {

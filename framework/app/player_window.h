@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/options.h"
+#include "app/player_input.h"
 #include "core/input_event.h"
 #include "render/window.h"
 
@@ -14,8 +15,6 @@
 namespace terrane {
 
 class Player;
-class TerrainViewController;
-class ViewHandler;
 
 /// The window of a player: shows its frames, and hands what a person does in it to the player's
 /// view. Escape closes it. On the program's main thread only.
@@ -44,7 +43,7 @@ public:
     /// After a frame: presents it.
     void show(const Player& player);
     /// Sleeps until something happens in it, at most so many seconds.
-    void wait(double seconds);
+    void wait(Player& player, double seconds);
     bool closing() const;
     /// There is one: the display and OpenGL could be had.
     bool isOpen() const { return window_ != nullptr; }
@@ -54,12 +53,11 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    void handle(const std::vector<InputEvent>& events);
+    void handle(Player& player, const std::vector<InputEvent>& events);
 
     const std::string name_;
     Window* window_ = nullptr; ///< the player's
-    std::unique_ptr<ViewHandler> view_;
-    TerrainViewController* controller_ = nullptr; ///< that the handler moves
+    PlayerInput input_;
     Clock::time_point last_{};
     bool reload_ = false;
 };

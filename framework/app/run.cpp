@@ -140,7 +140,7 @@ bool showFrames(Player& player, PlayerWindow& window, const RunOptions& options,
         if (report) tellReload(*report, options, err);
         if (!player.frame()) {
             if (!player.drawable()) player.drawProblems();
-            window.wait(0.05); // nothing moves but the files
+            window.wait(player, 0.05); // nothing moves but the files
         }
         window.show(player);
     }

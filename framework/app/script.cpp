@@ -172,6 +172,95 @@ Parsed parseMetric(Words& words) {
     return ExpectMetricCommand{*pointer, *comparison, *value};
 }
 
+// The resource may have dots in its name, attributes don't.
+Parsed parseSet(Words& words) {
+    const auto target = words.word(), value = words.word();
+    if (!target || !value) return std::nullopt;
+    const std::size_t dot = target->rfind('.');
+    if (dot == std::string::npos || dot == 0 || dot + 1 == target->size()) return std::nullopt;
+    return SetCommand{target->substr(0, dot), target->substr(dot + 1), *value};
+}
+
+/// "down", "up", or nothing for both, one after the other.
+std::optional<std::vector<bool>> parseStates(Words& words) {
+    if (words.empty()) return std::vector{true, false};
+    if (words.literal("down")) return std::vector{true};
+    if (words.literal("up")) return std::vector{false};
+    return std::nullopt;
+}
+
+std::vector<char32_t> characters(std::string_view text) {
+    std::vector<char32_t> result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        if ((byte & 0xc0) == 0x80 && !result.empty())
+            result.back() = result.back() << 6 | (byte & 0x3f);
+        else
+            result.push_back(byte >= 0xf0   ? byte & 0x07
+                             : byte >= 0xe0 ? byte & 0x0f
+                             : byte >= 0xc0 ? byte & 0x1f
+                                            : byte);
+    }
+    return result;
+}
+
+InputCommand typed(std::string_view text) {
+    InputCommand command;
+    for (const char32_t character : characters(text))
+        command.events.push_back(TextEvent{character});
+    return command;
+}
+
+Parsed parseKey(Words& words) {
+    static constexpr std::pair<std::string_view, bool Modifiers::*> kModifiers[] = {
+        {"shift", &Modifiers::shift}, {"control", &Modifiers::control}, {"alt", &Modifiers::alt}};
+    const auto name = words.word();
+    const auto states = parseStates(words);
+    if (!name || !states) return std::nullopt;
+    for (const auto& [word, modifier] : kModifiers) {
+        if (*name == word) return ModifierCommand{modifier, states->back()};
+    }
+    const auto key = keyNamed(*name);
+    if (!key && characters(*name).size() != 1) return std::nullopt;
+    if (!key) return states->front() ? typed(*name) : InputCommand{};
+    InputCommand command;
+    for (const bool down : *states)
+        command.events.push_back(KeyEvent{*key, down, {}});
+    return command;
+}
+
+Parsed parseMouse(Words& words) {
+    if (words.literal("move")) {
+        const auto x = words.real(), y = words.real();
+        if (!x || !y) return std::nullopt;
+        return InputCommand{{MouseMoveEvent{*x, *y}}};
+    }
+    const bool down = words.literal("down");
+    if (!down && !words.literal("up")) return std::nullopt;
+    static constexpr std::pair<std::string_view, MouseButton> kButtons[] = {
+        {"left", MouseButton::left},
+        {"middle", MouseButton::middle},
+        {"right", MouseButton::right}};
+    for (const auto& [word, button] : kButtons) {
+        if (words.literal(word)) return InputCommand{{MouseButtonEvent{button, down, 0, 0, {}}}};
+    }
+    return std::nullopt;
+}
+
+Parsed parseWheel(Words& words) {
+    const auto steps = words.real();
+    if (!steps) return std::nullopt;
+    return InputCommand{{WheelEvent{*steps, {}}}};
+}
+
+Parsed parseText(Words& words) {
+    auto text = words.word();
+    if (!text) return std::nullopt;
+    while (!words.empty())
+        *text += " " + *words.word();
+    return typed(*text);
+}
+
 struct Rule {
     std::string_view name;
     std::string_view usage;
@@ -194,17 +283,16 @@ constexpr Rule kCommands[] = {
     {"wait", "wait tiles [MAXFRAMES]", parseWait},
     {"screenshot", "screenshot FILE", parseName<ScreenshotCommand>},
     {"mark", "mark", parseNothing<MarkCommand>},
+    {"set", "set RESOURCE.ATTRIBUTE VALUE", parseSet},
     {"reload", "reload", parseNothing<ReloadCommand>},
+    {"key", "key NAME [down|up] (escape, f5, pageup... or a character; shift, control, alt)",
+     parseKey},
+    {"mouse", "mouse move X Y (pixels from the top left), or mouse down|up left|middle|right",
+     parseMouse},
+    {"wheel", "wheel STEPS (up is above 0)", parseWheel},
+    {"text", "text STRING", parseText},
     {"archive", "archive PATH", parseName<ArchiveCommand>},
     {"needs", "needs PATH", parseName<NeedsCommand>},
-};
-
-constexpr Rule kUnbuilt[] = {
-    {"set", "set RESOURCE.ATTRIBUTE VALUE", nullptr},
-    {"key", "key NAME [down|up]", nullptr},
-    {"mouse", "mouse move X Y, mouse down|up BUTTON", nullptr},
-    {"wheel", "wheel N", nullptr},
-    {"text", "text STRING", nullptr},
 };
 
 template <std::size_t N>
@@ -282,12 +370,9 @@ std::optional<ScriptLine> parseScriptLine(std::string_view text, int number) {
         parseExpect(words, line);
     } else if (const Rule* rule = find(kCommands, name)) {
         apply(*rule, words, line);
-    } else if (find(kUnbuilt, name)) {
-        line.command = UnbuiltCommand{name};
     } else {
         std::vector<std::string> names{"expect"};
         addNames(kCommands, names);
-        addNames(kUnbuilt, names);
         line.problem = unknown("command", name, names);
     }
     return line;
@@ -308,8 +393,6 @@ std::string scriptUsage() {
         text += "  " + std::string(rule.usage) + "\n";
     for (const Rule& rule : kExpectations)
         text += "  " + std::string(rule.usage) + "\n";
-    for (const Rule& rule : kUnbuilt)
-        text += "  " + std::string(rule.usage) + " (not built yet)\n";
     return text;
 }
 

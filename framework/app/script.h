@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/input_event.h"
 #include "ui/view_controller.h"
 
 #include <optional>
@@ -40,9 +41,18 @@ struct ArchiveCommand {
 struct NeedsCommand {
     std::string path;
 };
-/// Part of the language, but of no player yet.
-struct UnbuiltCommand {
-    std::string name;
+/// Sets an attribute of an entry of the archive.
+struct SetCommand {
+    std::string resource, attribute, value;
+};
+/// Events; a key that is neither held nor let go is both.
+struct InputCommand {
+    std::vector<InputEvent> events;
+};
+/// A modifier that goes with the events that follow.
+struct ModifierCommand {
+    bool Modifiers::*modifier = nullptr;
+    bool down = false;
 };
 struct ExpectTilesCommand {
     std::string producer;
@@ -69,9 +79,9 @@ struct ExpectNoErrorsCommand {};
 
 using ScriptCommand =
     std::variant<CameraCommand, FramesCommand, WaitCommand, ScreenshotCommand, MarkCommand,
-                 ReloadCommand, ArchiveCommand, NeedsCommand, UnbuiltCommand, ExpectTilesCommand,
-                 ExpectHeightCommand, ExpectImageCommand, ExpectDiagnosticCommand,
-                 ExpectMetricCommand, ExpectNoErrorsCommand>;
+                 ReloadCommand, ArchiveCommand, NeedsCommand, SetCommand, InputCommand,
+                 ModifierCommand, ExpectTilesCommand, ExpectHeightCommand, ExpectImageCommand,
+                 ExpectDiagnosticCommand, ExpectMetricCommand, ExpectNoErrorsCommand>;
 
 /// A line that says something: a command, or why it is none.
 struct ScriptLine {

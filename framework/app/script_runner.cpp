@@ -67,6 +67,7 @@ std::string ScriptRunner::run(const ScriptLine& line) {
 }
 
 std::string ScriptRunner::drawFrame(int frame, int frames) {
+    input_.advance(player_, player_.options().timeStep);
     if (!player_.frame()) return kNothing;
     if (observer_ && !observer_(frame, frames)) return kStopped;
     return {};
@@ -132,8 +133,36 @@ std::string ScriptRunner::run(const NeedsCommand&) {
     return "'needs' stands in fixtures only";
 }
 
-std::string ScriptRunner::run(const UnbuiltCommand& command) {
-    return "'" + command.name + "' is not built yet";
+std::string ScriptRunner::run(const SetCommand& command) {
+    return player_.set(command.resource, command.attribute, command.value);
+}
+
+std::string ScriptRunner::run(const InputCommand& command) {
+    for (InputEvent event : command.events) {
+        complete(event);
+        if (presses(event, Key::f5))
+            player_.reload();
+        else
+            input_.handle(player_, event);
+    }
+    return {};
+}
+
+// Where the pointer is, and which modifiers are held, lines before have said.
+void ScriptRunner::complete(InputEvent& event) {
+    if (auto* move = std::get_if<MouseMoveEvent>(&event)) pointer_ = {move->x, move->y};
+    if (auto* key = std::get_if<KeyEvent>(&event)) key->modifiers = modifiers_;
+    if (auto* wheel = std::get_if<WheelEvent>(&event)) wheel->modifiers = modifiers_;
+    if (auto* button = std::get_if<MouseButtonEvent>(&event)) {
+        button->modifiers = modifiers_;
+        button->x = pointer_.x;
+        button->y = pointer_.y;
+    }
+}
+
+std::string ScriptRunner::run(const ModifierCommand& command) {
+    modifiers_.*command.modifier = command.down;
+    return {};
 }
 
 std::string ScriptRunner::run(const ExpectTilesCommand& command) {
@@ -158,9 +187,6 @@ std::string ScriptRunner::run(const ExpectImageCommand& command) {
     if (player_.frames() == 0) return "no frame has been drawn yet";
     const fs::path path = folders_.script / command.file;
     const Image actual = player_.capture();
-    if (folders_.updatePictures) {
-        return write(path, actual) ? std::string() : "can't write " + shownPath(path);
-    }
     std::string problem;
     const auto expected = readPicture(path, problem);
     double share = kPictureShare;
@@ -170,15 +196,24 @@ std::string ScriptRunner::run(const ExpectImageCommand& command) {
         if (difference.agree(share)) return {};
         problem = difference.toString();
     }
-    if (folders_.failure.empty()) return problem;
-    const fs::path shown = folders_.failure / fs::path(command.file).filename();
-    write(shown, actual);
-    problem += "; see " + shownPath(shown);
-    if (!expected) return problem;
-    fs::path other = shown;
-    other.replace_extension(".difference.png");
-    write(other, differenceImage(actual, *expected));
-    return problem + " and " + shownPath(other);
+    if (folders_.failure.empty() && !folders_.updatePictures) return problem;
+    // Who updates a picture is shown what it was.
+    const Image& other = folders_.updatePictures && expected ? *expected : actual;
+    if (!folders_.failure.empty() && (expected || !folders_.updatePictures)) {
+        const fs::path shown = folders_.failure / fs::path(command.file).filename();
+        write(shown, other);
+        problem += "; see " + shownPath(shown);
+        if (expected) {
+            fs::path difference = shown;
+            difference.replace_extension(".difference.png");
+            write(difference, differenceImage(actual, *expected));
+            problem += " and " + shownPath(difference);
+        }
+    }
+    if (!folders_.updatePictures) return problem;
+    if (!write(path, actual)) return "can't write " + shownPath(path);
+    updates_.push_back("updated " + shownPath(path) + ": " + problem);
+    return {};
 }
 
 std::string ScriptRunner::run(const ExpectDiagnosticCommand& command) {

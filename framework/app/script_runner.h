@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/player_input.h"
 #include "app/script.h"
 #include "core/source.h"
 
@@ -8,6 +9,8 @@
 #include <functional>
 #include <string>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace terrane {
 
@@ -18,7 +21,7 @@ struct ScriptFolders {
     std::filesystem::path script;  ///< what `expect image` and `expect diagnostic` name
     std::filesystem::path output;  ///< where `screenshot` writes
     std::filesystem::path failure; ///< where actual and difference pictures go; empty: nowhere
-    bool updatePictures = false;   ///< `expect image` writes the picture instead of comparing it
+    bool updatePictures = false;   ///< `expect image` writes a picture that does not agree
 };
 
 /// Told after each frame of a command that draws several: how many are drawn, of how many at most.
@@ -39,6 +42,9 @@ public:
     /// Diagnostics that the script expected and that were reported.
     const std::vector<ExpectDiagnosticCommand>& expectedDiagnostics() const { return expected_; }
 
+    /// What became of pictures that were updated, a line each.
+    const std::vector<std::string>& updates() const { return updates_; }
+
 private:
     std::string run(const CameraCommand& command);
     std::string run(const FramesCommand& command);
@@ -48,7 +54,9 @@ private:
     std::string run(const ReloadCommand& command);
     std::string run(const ArchiveCommand& command);
     std::string run(const NeedsCommand& command);
-    std::string run(const UnbuiltCommand& command);
+    std::string run(const SetCommand& command);
+    std::string run(const InputCommand& command);
+    std::string run(const ModifierCommand& command);
     std::string run(const ExpectTilesCommand& command);
     std::string run(const ExpectHeightCommand& command);
     std::string run(const ExpectImageCommand& command);
@@ -56,11 +64,16 @@ private:
     std::string run(const ExpectMetricCommand& command);
     std::string run(const ExpectNoErrorsCommand& command);
     std::string drawFrame(int frame, int frames);
+    void complete(InputEvent& event);
 
     Player& player_;
     const ScriptFolders folders_;
     const FrameObserver observer_;
     std::vector<ExpectDiagnosticCommand> expected_;
+    std::vector<std::string> updates_;
+    PlayerInput input_;
+    Modifiers modifiers_;
+    glm::dvec2 pointer_{0}; ///< pixels
 };
 
 /// The place of a diagnostic as scripts write it: "file:line:col" with the file relative to a

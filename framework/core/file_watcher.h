@@ -35,8 +35,8 @@ public:
     FileWatcher& operator=(const FileWatcher&) = delete;
 
     /// The folders to watch from now on, instead of those before; not what is below them. One that
-    /// is missing is watched as soon as it is there. A change is told as soon as new ones are watched,
-    /// for what may have happened until then.
+    /// is missing is watched as soon as it is there. A change is told as soon as new ones are
+    /// watched, for what may have happened until then.
     void watch(std::vector<std::filesystem::path> folders);
 
     /// Whether something has happened since the last true answer. Cheap.

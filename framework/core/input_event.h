@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <string_view>
 #include <variant>
 
 /// What a person does with mouse and keyboard: plain data, whether a window reports it, a script
@@ -23,6 +25,9 @@ enum class Key {
     f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12
     // clang-format on
 };
+
+/// "escape", "pageup", "f5"... in any case; nothing for other words.
+std::optional<Key> keyNamed(std::string_view name);
 
 /// A key that is held may come down again and again.
 struct KeyEvent {

@@ -16,39 +16,19 @@ bool isImage(const std::string& name) {
     return name.size() > 4 && (ends(".jpg") || ends(".png") || ends(".bmp") || ends(".tga"));
 }
 
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
-        }
-    }
-    return result;
-}
-
 // "renderbuffer-<size>-<internalformat>[-<anything>]"; an empty text for any other name.
 std::string renderbufferXml(const std::string& name) {
     if (!name.starts_with("renderbuffer")) return {};
     const auto pieces = split(name, '-');
     if (pieces.size() < 3) return {};
-    const std::string size = escaped(pieces[1]);
-    return "<texture2D internalformat=\"" + escaped(pieces[2]) + "\" width=\"" + size +
+    const std::string size = asXml(pieces[1]);
+    return "<texture2D internalformat=\"" + asXml(pieces[2]) + "\" width=\"" + size +
            "\" height=\"" + size +
            "\" format=\"RED\" type=\"FLOAT\" min=\"NEAREST\" mag=\"NEAREST\"/>";
 }
 
 std::string imageXml(const std::string& name) {
-    return "<texture2D source=\"" + escaped(name) +
+    return "<texture2D source=\"" + asXml(name) +
            "\" internalformat=\"RGBA8\" min=\"LINEAR_MIPMAP_LINEAR\" mag=\"LINEAR\" "
            "wraps=\"REPEAT\" wrapt=\"REPEAT\"/>";
 }
@@ -59,7 +39,7 @@ std::string fixedXml(const std::string& name) {
     if (std::string xml = renderbufferXml(name); !xml.empty()) return xml;
     if (isImage(name)) return imageXml(name);
     const bool program = name.find(';') != std::string::npos;
-    if (!program && name.ends_with(".mesh")) return "<mesh source=\"" + escaped(name) + "\"/>";
+    if (!program && name.ends_with(".mesh")) return "<mesh source=\"" + asXml(name) + "\"/>";
     return {};
 }
 
@@ -68,7 +48,7 @@ std::string programXml(const std::string& name) {
     std::string xml = "<program>";
     const std::string list = name.substr(0, name.rfind(';'));
     for (const std::string_view piece : split(list, ';'))
-        xml += "<module name=\"" + escaped(piece) + "\"/>";
+        xml += "<module name=\"" + asXml(piece) + "\"/>";
     return xml + "</program>";
 }
 
@@ -187,6 +167,10 @@ std::optional<fs::path> Library::findFile(const std::string& name, const Place& 
                             "the same case, which other systems need");
     }
     return found->path;
+}
+
+void Library::setText(const fs::path& path, std::string text) {
+    sources_[path] = std::make_shared<SourceFile>(shownPath(path), std::move(text));
 }
 
 std::shared_ptr<const SourceFile> Library::source(const fs::path& path) {

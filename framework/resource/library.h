@@ -60,6 +60,8 @@ public:
     std::optional<std::filesystem::path> findFile(const std::string& name, const Place& place,
                                                   Diagnostics& diagnostics) const;
 
+    /// What a file is to say instead of what it says; to be called before anybody reads it.
+    void setText(const std::filesystem::path& path, std::string text);
     /// A text file that diagnostics can point into; read once. Null when it can't be read.
     std::shared_ptr<const SourceFile> source(const std::filesystem::path& path);
 

@@ -85,21 +85,4 @@ std::string documentation(const Schema& schema, const ElementDeclaration& elemen
     return text;
 }
 
-std::string asXml(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '"')
-            result += "&quot;";
-        else
-            result += c;
-    }
-    return result;
-}
-
 } // namespace terrane

@@ -26,7 +26,4 @@ std::string documentation(const Schema& schema, const ElementDeclaration& elemen
 inline constexpr const char* kNameSummary = "name by which others refer to the resource";
 inline constexpr const char* kIdSummary = "key by which methods find it at the node";
 
-/// Escaped for XML, also in quotes.
-std::string asXml(std::string_view text);
-
 } // namespace terrane

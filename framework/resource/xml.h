@@ -7,6 +7,7 @@
 #include <memory>
 #include <pugixml.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace terrane {
@@ -67,5 +68,8 @@ private:
     pugi::xml_node node_;
     Place blame_;
 };
+
+/// A text as it is written in XML, also between double quotes.
+std::string asXml(std::string_view text);
 
 } // namespace terrane

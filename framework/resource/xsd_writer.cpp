@@ -3,6 +3,7 @@
 
 #include "resource/schema_text.h"
 #include "resource/value_types.h"
+#include "resource/xml.h"
 
 #include <algorithm>
 #include <limits>

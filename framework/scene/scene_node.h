@@ -44,6 +44,7 @@ public:
     std::vector<std::string> flags; ///< the name included
     Place place;                    ///< of its element; none for a node that no archive describes
     glm::dmat4 localToParent{1};    ///< ignored on the root, whose frame is the world
+    glm::dmat4 described{1};        ///< localToParent as the archive says it
     Box localBounds;                ///< of what is drawn at this node itself
 
     // References to what could not be had are empty.

@@ -186,6 +186,11 @@ std::shared_ptr<SceneNode> buildNode(const NodeDescription& d, BuildContext& con
     NodeMaker maker(*node, context.diagnostics());
     for (const Child& child : d.children)
         maker.add(child);
+    node->described = node->localToParent;
+    // Where somebody has moved it, such as the light, it stays unless the archive moves it.
+    const auto previous = context.previous<SceneNode>();
+    if (previous && previous->described == node->described)
+        node->localToParent = previous->localToParent;
     return node;
 }
 

@@ -62,7 +62,7 @@ struct Arguments {
     std::optional<double> timeStep;
     bool realTime = false, json = false, strict = false, update = false;
     int samples = 1;
-    std::string name;
+    std::string name, junit;
     std::string format = "xsd", output; ///< of the schema
 };
 
@@ -164,7 +164,11 @@ void addOthers(CLI::App& app, Arguments& a) {
     CLI::App* test = app.add_subcommand("test", "Run archive fixtures");
     test->add_option("path", a.archives, "Fixtures (folders with a script), or folders of them")
         ->required();
-    test->add_flag("--update", a.update, "Write the expected pictures anew; then look at them");
+    test->add_flag("--update", a.update,
+                   "Write expected pictures anew where others are drawn, and tell where the old "
+                   "ones and the differences are to be seen");
+    test->add_option("--junit", a.junit, "Also write the results as JUnit XML, for build servers")
+        ->type_name("FILE");
     addCommon(*test, a);
 
     CLI::App* fresh = app.add_subcommand("new", "Make a working archive to start from");
@@ -245,8 +249,10 @@ fs::path reportFolder() {
 }
 
 int test(const Registry& registry, const Arguments& a) {
-    FixtureOptions options{
-        .data = toPaths(a.paths), .output = reportFolder(), .updatePictures = a.update};
+    FixtureOptions options{.data = toPaths(a.paths),
+                           .output = reportFolder(),
+                           .updatePictures = a.update,
+                           .junit = a.junit};
     const char* const data = std::getenv("TERRANE_TEST_DATA");
     options.data.push_back(data ? fs::path(data) : homeFolder() / ".." / "shared" / "data");
     return testFixtures(registry, toPaths(a.archives), options, std::cout);

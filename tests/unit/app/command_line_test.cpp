@@ -65,7 +65,7 @@ TEST_CASE_FIXTURE(Terrane, "help and version are no failures") {
     const std::string help = run("play --help").out;
     contains(help, "--screenshot");
     contains(help, "wait tiles [MAXFRAMES]");
-    contains(help, "reload (not built yet)");
+    contains(help, "set RESOURCE.ATTRIBUTE VALUE");
     contains(run("--version").out, "terrane ");
     for (const char* words : {"--help", "play --help", "check --help", "test --help", "--version"})
         CHECK(run(words).status == 0);
@@ -138,11 +138,11 @@ TEST_CASE_FIXTURE(Terrane, "a script that fails makes the run fail") {
     const std::string play = "play % --headless --size 64x48 --script %/script";
     write("script", "frames 1\nexpect no-errors\n");
     CHECK(run(play).status == 0);
-    write("script", "frames 1\nexpect tiles x == 1\nmark\nwheel 1\n");
+    write("script", "frames 1\nexpect tiles x == 1\nmark\nset x.y 1\n");
     const Result failed = run(play);
     CHECK(failed.status == 1);
     contains(failed.err, "script:2: error: there is no producer 'x'\n    expect tiles x == 1\n");
-    contains(failed.err, "script:4: error: 'wheel' is not built yet");
+    contains(failed.err, "script:4: error: there is no resource 'x'");
     write("script", "frames 1\nexpct\n");
     contains(run(play).err, "script:2: error: unknown command 'expct'");
     CHECK(run("play % --headless --script %/none").status == 1);

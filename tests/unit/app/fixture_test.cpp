@@ -70,20 +70,26 @@ TEST_CASE_FIXTURE(Fixture, "a fixture fails with each line that does not hold") 
                                      "expect image golden.png\n"
                                      "expect tiles nobody == 3\n"
                                      "expect metric /frames/0/tiles > 3\n"
-                                     "reload\n");
+                                     "set nobody.size 3\n");
     CHECK(result.status == Status::failed);
     contains(result, "script:2: expect image golden.png\n");
     contains(result, "100 % of the pixels differ");
     contains(result, "script:3: expect tiles nobody == 3\n    there is no producer 'nobody'\n");
     contains(result, "'/frames/0/tiles' is 0\n");
-    contains(result, "'reload' is not built yet\n");
+    contains(result, "there is no resource 'nobody'\n");
     CHECK(std::filesystem::exists(*this / "output/golden.png"));
     CHECK(std::filesystem::exists(*this / "output/golden.difference.png"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "pictures can be written anew") {
     CHECK(run("frames 1\nexpect image golden.png\n").status == Status::failed);
-    CHECK(run("frames 1\nexpect image golden.png\n", true).status == Status::passed);
+    const FixtureResult made = run("frames 1\nexpect image golden.png\n", true);
+    CHECK(made.status == Status::passed);
+    contains(made, "updated ");
+    CHECK(run("frames 1\nexpect image golden.png\n", true).report.empty()); // it agrees
+    golden(0, 0, 255);
+    contains(run("frames 1\nexpect image golden.png\n", true), "100 % of the pixels differ");
+    CHECK(std::filesystem::exists(*this / "output/golden.difference.png"));
     CHECK(run("frames 1\nexpect image golden.png\n").status == Status::passed);
 }
 

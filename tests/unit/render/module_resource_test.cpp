@@ -99,9 +99,8 @@ TEST_CASE_FIXTURE(ModuleFixture, "A program is linked from the modules in its na
     CHECK(draw(*p) == glm::vec4(1, 2, 3, 4));
     CHECK(get<Module>("c")->files().size() == 2);
     const auto& read = manager->entries().at("c")->files;
-    CHECK(std::count_if(read.begin(), read.end(), [&](const UsedFile& file) {
-              return file.path == folder / "d.glsl";
-          }) == 1);
+    CHECK(std::count_if(read.begin(), read.end(),
+                        [&](const UsedFile& file) { return file.path == folder / "d.glsl"; }) == 1);
     CHECK(get<Module>("c")->programs().size() == 1);
 }
 
