@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -209,4 +211,67 @@ TEST_CASE_FIXTURE(test::TerraneProgram, "a window without anything to draw waits
     CHECK(std::chrono::steady_clock::now() - begin >= open);
     CHECK(result.status == 1);
     CHECK(result.err.find("[no-root]") != std::string::npos);
+}
+
+namespace {
+
+/// Until the middle of the screen has a colour, as people see it; false when it does not in time.
+bool screenTurns(const VirtualDisplay& display, const std::array<int, 3>& colour) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (std::chrono::steady_clock::now() < deadline) {
+        const Image screen = display.screen(160, 120);
+        const unsigned char* const p = screen.row(30) + 80 * screen.pixelSize();
+        if (std::equal(colour.begin(), colour.end(), p)) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
+}
+
+/// Letters of the colour of errors, in the upper half.
+bool showsProblems(const VirtualDisplay& display) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (std::chrono::steady_clock::now() < deadline) {
+        const Image screen = display.screen(160, 120);
+        int reddish = 0;
+        for (int y = 60; y < 120; ++y) {
+            for (int x = 0; x < 160; ++x) {
+                const unsigned char* const p = screen.row(y) + x * screen.pixelSize();
+                reddish += p[0] > 200 && p[1] > 60 && p[1] < 140 && p[2] > 40 && p[2] < 140;
+            }
+        }
+        if (reddish > 50) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE_FIXTURE(test::TerraneProgram, "a window waits for repairs, and shows every save") {
+    const VirtualDisplay display;
+    if (skipped(display) || withoutKeys()) return;
+    writeColour("0.0, 0.0, 1.0");
+    write("archive.xml", "<archive>\n<node name=\"scene\"\n"); // saved halfway
+    Result result;
+    std::thread playing([&] { result = run("play % --size 160x120"); });
+    CHECK(showsProblems(display));
+    writeColour("0.0, 0.0, 1.0");
+    CHECK(screenTurns(display, {0, 0, 255}));
+    writeColour("0.0, 1.0, 0.0");
+    CHECK(screenTurns(display, {0, 255, 0}));
+    write("fill.glsl", "void main() { oops; }\n");
+    CHECK(showsProblems(display));
+    CHECK(screenTurns(display, {0, 255, 0})); // the picture stays
+    writeColour("1.0, 0.0, 1.0");
+    CHECK(screenTurns(display, {255, 0, 255}));
+    CHECK(VirtualDisplay::act("search --name ' - Terrane$' mousemove 9 9 key F5"));
+    {
+        const EscapePresses presses(std::chrono::milliseconds(100));
+        playing.join();
+    }
+    CHECK(result.status == 0);
+    CHECK(result.err.find("[xml-syntax]") != std::string::npos);
+    CHECK(result.err.find("[glsl-compile]") != std::string::npos);
+    CHECK(result.err.find("not reloaded") != std::string::npos);
+    CHECK(result.err.find("reloaded 2 resources, 0 tiles to make anew, in ") != std::string::npos);
 }
