@@ -15,6 +15,7 @@
 #include "ui/view_controller.h"
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -163,6 +164,7 @@ private:
     std::vector<ResourceEntry*> roots() const;
     void showProblems();
     void followShape();
+    void followPlaces();
     bool setScheduler();
     void observe(Scheduler& scheduler);
     void setStartView();
@@ -201,6 +203,8 @@ private:
     std::unique_ptr<TerrainViewController> controller_;
     ViewShape viewShape_; ///< that the controller is for
     std::vector<AttributeSetting> attributeSettings_;
+    /// The newest text of each file, by the path that diagnostics show.
+    std::map<std::string, std::shared_ptr<const SourceFile>> newestTexts_;
     bool good_ = false;                              ///< the archive is loaded without errors
     std::size_t firstProblem_ = 0, problemsEnd_ = 0; ///< of the last load or reload
 

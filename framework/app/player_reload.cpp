@@ -104,14 +104,15 @@ std::vector<fs::path> Player::sourceFolders() const {
         folders.insert(fs::absolute(file, error).lexically_normal().parent_path());
         folders.insert(fs::weakly_canonical(file, error).parent_path()); // it may be a link
     };
-    addParent(options_.archive / "."); // of a folder, the folder itself
-    addParent(options_.archive);
     Diagnostics ignored;
     if (const auto archive = resolveArchive(options_.archive, ignored)) {
         const SearchPath search = archiveSearchPath(*archive, options_.paths);
         for (const fs::path& folder : search.folders())
             addParent(folder / ".");
         addFoldersBelow(archive->parent_path(), folders);
+    } else {
+        addParent(options_.archive / "."); // of a folder, the folder itself
+        addParent(options_.archive);
     }
     if (!resources_) return {folders.begin(), folders.end()};
     for (const auto& [name, entry] : resources_->entries()) {
@@ -215,6 +216,7 @@ ReloadReport Player::replace() {
     if (failed()) return {.changed = true, .good = false};
     reload.commit(roots());
     library_ = std::move(fresh);
+    followPlaces();
     followShape();
     return report;
 }
@@ -244,6 +246,18 @@ void Player::account(const Reload& reload, ReloadReport& report) {
             metrics_.carryOver(entry->name, *cache);
     }
     std::sort(report.rebuilt.begin(), report.rebuilt.end());
+}
+
+// What was not built anew tells its problems where it stood when it was. The function replaces the
+// one before as a whole, since workers may be reporting.
+void Player::followPlaces() {
+    for (const auto& [path, source] : library_->sources()) {
+        if (source) newestTexts_[source->path()] = source;
+    }
+    diagnostics_.setRelocation([texts = newestTexts_](const Place& place) {
+        const auto now = texts.find(place.file->path());
+        return now == texts.end() ? place : relocated(place, now->second);
+    });
 }
 
 // A terrain that has become a planet, or one of another size, is looked at in its own way.

@@ -16,6 +16,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <set>
+#include <utility>
 
 namespace terrane {
 
@@ -41,6 +43,44 @@ private:
     std::mutex mutex_;
 };
 
+LogLevel levelOf(Severity severity) {
+    return severity == Severity::error     ? LogLevel::error
+           : severity == Severity::warning ? LogLevel::warning
+                                           : LogLevel::info;
+}
+
+/// What is wrong is told once, however often files are saved until it is mended.
+class Problems {
+public:
+    Problems(Messages& err, LogLevel level)
+        : err_(err)
+        , level_(level) {}
+
+    void tell(const Diagnostic& diagnostic) {
+        const std::string text = toString(diagnostic);
+        const std::lock_guard lock(mutex_);
+        now_.insert(text);
+        if (before_.contains(text)) return;
+        anythingNew_ = true;
+        if (levelOf(diagnostic.severity) >= level_) err_.tell(text);
+    }
+
+    /// After a load or reload: what was told since the one before is known from now on. Whether any
+    /// of it was new.
+    bool next() {
+        const std::lock_guard lock(mutex_);
+        before_ = std::exchange(now_, {});
+        return std::exchange(anythingNew_, false);
+    }
+
+private:
+    Messages& err_;
+    const LogLevel level_;
+    std::mutex mutex_; ///< guards what follows
+    std::set<std::string> before_, now_;
+    bool anythingNew_ = false;
+};
+
 /// Tells how far a long run is, every other second after the first.
 class Progress {
 public:
@@ -61,12 +101,6 @@ private:
     const bool told_;
     Clock::time_point next_ = Clock::now() + std::chrono::seconds(1);
 };
-
-LogLevel levelOf(Severity severity) {
-    return severity == Severity::error     ? LogLevel::error
-           : severity == Severity::warning ? LogLevel::warning
-                                           : LogLevel::info;
-}
 
 /// Pictures look plainer without a GPU; nobody should have to guess why.
 void tellSoftware(Player& player, const RunOptions& options, Messages& err) {
@@ -115,8 +149,10 @@ std::string counted(std::size_t count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-void tellReload(const ReloadReport& report, const RunOptions& options, Messages& err) {
+void tellReload(const ReloadReport& report, bool anythingNew, const RunOptions& options,
+                Messages& err) {
     if (!report.changed || options.logLevel > LogLevel::info) return;
+    if (!report.good && !anythingNew) return;
     if (!report.good) return err.tell("not reloaded; waiting for the repair\n");
     int tiles = 0;
     for (const auto& [producer, count] : report.tilesInvalidated)
@@ -133,11 +169,13 @@ void tellReload(const ReloadReport& report, const RunOptions& options, Messages&
 
 /// Until the window is closed, or so many frames have been shown. Follows every edit; what is wrong
 /// is shown, and waits for its repair. False when nothing could be drawn at last.
-bool showFrames(Player& player, PlayerWindow& window, const RunOptions& options, Messages& err) {
+bool showFrames(Player& player, PlayerWindow& window, const RunOptions& options, Problems& problems,
+                Messages& err) {
     EditFollower edits(player);
+    problems.next();
     for (int i = 0; (options.frames < 0 || i < options.frames) && window.prepare(player); ++i) {
         const auto report = window.takeReload() ? edits.reload() : edits.follow();
-        if (report) tellReload(*report, options, err);
+        if (report) tellReload(*report, problems.next(), options, err);
         if (!player.frame()) {
             if (!player.drawable()) player.drawProblems();
             window.wait(player, 0.05); // nothing moves but the files
@@ -219,7 +257,8 @@ bool writeResults(Player& player, const RunOptions& options, Messages& err) {
 } // namespace
 
 int run(const Registry& registry, const RunOptions& options, const RunStreams& streams) {
-    Messages err(streams.err); // used by the player's workers to its end
+    Messages err(streams.err); // as the next, used by the player's workers to its end
+    Problems problems(err, options.logLevel);
     PlayerOptions playerOptions = options.player;
     playerOptions.recordFrames = !options.metrics.empty() || !options.script.empty();
     playerOptions.trace = !options.trace.empty();
@@ -230,9 +269,7 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     std::optional<PlayerWindow> window;
     if (options.window) window.emplace(nameOf(playerOptions.archive)).install(playerOptions);
     Player player(registry, playerOptions);
-    player.diagnostics().onReport([&](const Diagnostic& diagnostic) {
-        if (levelOf(diagnostic.severity) >= options.logLevel) err.tell(toString(diagnostic));
-    });
+    player.diagnostics().onReport([&](const Diagnostic& d) { problems.tell(d); });
     bool good = player.load();
     tellSoftware(player, options, err);
     if (good && isInteractive(options))
@@ -240,7 +277,7 @@ int run(const Registry& registry, const RunOptions& options, const RunStreams& s
     else if (good && !options.script.empty())
         good = runScript(player, window ? &*window : nullptr, options, err);
     else if (watched && window->isOpen() && (good || options.frames < 0))
-        good = showFrames(player, *window, options, err);
+        good = showFrames(player, *window, options, problems, err);
     else if (good)
         good = drawFrames(player, options, err);
     // What a run that failed early can tell of itself is still worth having.

@@ -96,6 +96,7 @@ void Diagnostics::report(Diagnostic diagnostic) {
     Listener listener;
     {
         std::lock_guard lock(mutex_);
+        if (relocation_ && diagnostic.place) diagnostic.place = relocation_(diagnostic.place);
         const std::size_t key = hash(diagnostic);
         const auto [first, last] = indexByHash_.equal_range(key);
         const auto equal = [&](const auto& item) { return same(list_[item.second], diagnostic); };
@@ -170,6 +171,11 @@ void Diagnostics::forget(std::size_t first, std::size_t last) {
         errors_ += list_[i].severity == Severity::error;
         warnings_ += list_[i].severity == Severity::warning;
     }
+}
+
+void Diagnostics::setRelocation(std::function<Place(const Place&)> relocation) {
+    std::lock_guard lock(mutex_);
+    relocation_ = std::move(relocation);
 }
 
 void Diagnostics::onReport(Listener listener) {

@@ -53,6 +53,9 @@ public:
     void forget(std::size_t first, std::size_t last);
     /// Called for each new diagnostic, on the thread that reports it.
     void onReport(Listener listener);
+    /// Where the places of diagnostics are by now, since files change while they are in use; called
+    /// before a diagnostic is looked at, on the thread that reports it.
+    void setRelocation(std::function<Place(const Place&)> relocation);
 
 private:
     mutable std::mutex mutex_;
@@ -62,6 +65,7 @@ private:
     std::size_t errors_ = 0;
     std::size_t warnings_ = 0;
     Listener listener_;
+    std::function<Place(const Place&)> relocation_;
 };
 
 } // namespace terrane

@@ -44,4 +44,21 @@ std::string Place::toString() const {
     return file->path() + ':' + std::to_string(at.line) + ':' + std::to_string(at.column);
 }
 
+Place relocated(const Place& place, const std::shared_ptr<const SourceFile>& now) {
+    if (!place.file || !now || place.file == now) return place;
+    const std::string &before = place.file->text(), &after = now->text();
+    const std::size_t shorter = std::min(before.size(), after.size());
+    const auto firstDifference = std::mismatch(
+        before.begin(), before.begin() + static_cast<std::ptrdiff_t>(shorter), after.begin());
+    const auto same = static_cast<std::size_t>(firstDifference.first - before.begin());
+    if (place.offset < same || before == after) return {now, place.offset};
+    const std::size_t behind = before.size() - std::min(place.offset, before.size());
+    std::size_t common = 0; // from the end
+    while (common < shorter - same &&
+           before[before.size() - 1 - common] == after[after.size() - 1 - common])
+        ++common;
+    if (behind > 0 && behind <= common) return {now, after.size() - behind};
+    return place;
+}
+
 } // namespace terrane

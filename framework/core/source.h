@@ -51,4 +51,8 @@ struct Place {
     bool operator==(const Place& other) const = default;
 };
 
+/// Where a place of a text is in a later version of it: before and after what differs, the place of
+/// the same bytes. A place within what differs stays as it is, in the old text.
+Place relocated(const Place& place, const std::shared_ptr<const SourceFile>& now);
+
 } // namespace terrane

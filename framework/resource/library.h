@@ -64,6 +64,10 @@ public:
     void setText(const std::filesystem::path& path, std::string text);
     /// A text file that diagnostics can point into; read once. Null when it can't be read.
     std::shared_ptr<const SourceFile> source(const std::filesystem::path& path);
+    /// All that were read, by path.
+    const std::map<std::filesystem::path, std::shared_ptr<const SourceFile>>& sources() const {
+        return sources_;
+    }
 
 private:
     struct Entry {

@@ -77,3 +77,35 @@ TEST_CASE("a place keeps its file and prints as file, line and column") {
     CHECK(place);
     CHECK(place.toString() == "folder/a.xml:2:3");
 }
+
+TEST_CASE("a place is found again in a later version of its text") {
+    const auto text = [](const char* what) { return std::make_shared<SourceFile>("a.xml", what); };
+    const auto before = text("one\ntwo\nthree\nfour\n");
+    struct Row {
+        const char* name;
+        const char* after;
+        LineColumn place, expected; ///< line 0: it stays in the old text
+    };
+    const Row rows[] = {
+        {"nothing changed", "one\ntwo\nthree\nfour\n", {3, 2}, {3, 2}},
+        {"a line above", "zero\none\ntwo\nthree\nfour\n", {3, 2}, {4, 2}},
+        {"a line above, gone", "one\nthree\nfour\n", {3, 2}, {2, 2}},
+        {"a line below", "one\ntwo\nthree\nthree and a half\nfour\n", {2, 3}, {2, 3}},
+        {"in the line itself", "one\ntwo\nthirty\nfour\n", {3, 4}, {0, 0}},
+        {"further back in the line", "one\ntwo\nthree!\nfour\n", {3, 2}, {3, 2}},
+        {"before it in the line", "one\ntwo\nno three\nfour\n", {3, 2}, {3, 5}},
+        {"all of it", "", {3, 2}, {0, 0}},
+        {"repeated lines", "one\none\ntwo\nthree\nfour\n", {4, 1}, {5, 1}},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(std::string(row.name));
+        const auto after = text(row.after);
+        const Place place = relocated({before, before->offset(row.place)}, after);
+        const bool moved = row.expected.line > 0;
+        CHECK((place.file == after) == moved);
+        if (!moved) continue;
+        CHECK(place.position().line == row.expected.line);
+        CHECK(place.position().column == row.expected.column);
+    }
+    CHECK_FALSE(relocated({}, before));
+}
