@@ -355,37 +355,4 @@ void Program::inheritValues(const Program& previous) {
     }
 }
 
-void Program::replaceBy(Program& fresh) {
-    fresh.inheritValues(*this);
-    std::swap(name_, fresh.name_);
-    std::swap(source_, fresh.source_);
-    std::swap(blocks_, fresh.blocks_);
-    std::swap(subroutines_, fresh.subroutines_);
-    std::swap(fromBinary_, fresh.fromBinary_);
-    std::swap(restrictsInput_, fresh.restrictsInput_);
-    std::swap(inputPrimitives_, fresh.inputPrimitives_);
-    for (const auto& module : source_.modules)
-        std::replace(module->programs_.begin(), module->programs_.end(), &fresh, this);
-    for (const auto& module : fresh.source_.modules)
-        std::erase(module->programs_, this);
-    fresh.source_.modules.clear();
-    for (Slot& slot : slots_)
-        slot = {.name = std::move(slot.name)};
-    for (Slot& slot : fresh.slots_) {
-        const auto known = slotsByName_.find(slot.name);
-        const int index = known != slotsByName_.end() ? known->second : addSlot(slot.name);
-        slots_[index] = std::move(slot);
-    }
-    fresh.slots_.clear();
-    fresh.slotsByName_.clear();
-    fresh.samplers_.clear();
-    samplers_.clear();
-    for (std::size_t i = 0; i < slots_.size(); ++i) {
-        Slot& slot = slots_[i];
-        if (slot.active() && slot.uniform.type->isSampler())
-            samplers_.push_back(static_cast<int>(i));
-        if (!slot.active()) slot.aliasOf = findSlot(slot.name);
-    }
-}
-
 } // namespace terrane

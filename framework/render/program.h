@@ -24,13 +24,12 @@ namespace terrane {
 class Program;
 
 /// A uniform of a program, found by name once. Small, copied freely, valid as long as the program
-/// object, across replaceBy() too. Setting a uniform that the program does not have (any more)
-/// does nothing. GL thread only.
+/// object. Setting a uniform that the program does not have does nothing. GL thread only.
 class UniformHandle {
 public:
     UniformHandle() = default;
 
-    /// Whether the program has such a uniform at the moment.
+    /// Whether the program has such a uniform.
     bool active() const;
     /// Of kind `none` when it is not active.
     const UniformType& type() const;
@@ -153,14 +152,14 @@ public:
     /// A handle by name: `u`, `u[2]`, `s.m`, `u[1].m`; `u` of an array is its first element.
     /// Members of uniform blocks have their plain name, or `Block.member` if the block has an
     /// instance name; the other form is understood too. Never fails: the handle of an unknown name
-    /// becomes active when a later version of the program has it.
+    /// is not active.
     UniformHandle find(std::string_view name);
     /// The same for values of a type.
     template <class T>
     Uniform<T> uniform(std::string_view name) {
         return Uniform<T>(find(name));
     }
-    /// The subroutine uniforms. Their values survive replaceBy() like those of other uniforms.
+    /// The subroutine uniforms.
     SubroutineTable& subroutines() { return subroutines_; }
     /// Names of all active uniforms, in the order of OpenGL's list.
     std::vector<std::string> uniformNames() const;
@@ -175,8 +174,6 @@ public:
     /// taken, so that an edited initial value shows. What this version has no uniform for is
     /// remembered for a later one.
     void inheritValues(const Program& previous);
-    /// Becomes a newer version and keeps handles and values; `fresh` is empty afterwards.
-    void replaceBy(Program& fresh);
 
 private:
     friend class UniformHandle;

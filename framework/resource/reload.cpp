@@ -109,15 +109,6 @@ void Reload::rebuild() {
     }
 }
 
-bool Reload::failed() const {
-    const auto bad = [](const ResourceEntry* entry) {
-        return entry->state == ResourceEntry::State::failed || entry->incomplete;
-    };
-    const auto& added = transaction_.added;
-    return std::any_of(affected_.begin(), affected_.end(), bad) ||
-           std::any_of(added.begin(), added.end(), bad);
-}
-
 std::set<ResourceEntry*> Reload::needed(const std::vector<ResourceEntry*>& roots) const {
     std::set<ResourceEntry*> result;
     std::vector<ResourceEntry*> queue = roots;

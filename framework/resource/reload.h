@@ -43,9 +43,6 @@ public:
     /// built when they are asked for. Problems are reported as those of the first load are.
     void rebuild();
 
-    /// Whether anything could not be built.
-    bool failed() const;
-
     /// Lets go of the old versions, and of all that none of the roots needs any more.
     void commit(const std::vector<ResourceEntry*>& roots);
     /// Brings the old versions back. Whoever refers to new ones must have let go of them.

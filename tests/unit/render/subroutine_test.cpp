@@ -60,19 +60,19 @@ TEST_CASE_FIXTURE(SubroutineFixture, "Subroutine uniforms choose functions by na
 
 TEST_CASE_FIXTURE(SubroutineFixture,
                   "A chosen function survives a reload, and its uniform's absence") {
-    const auto program = link(fragment(text(), 400));
+    auto program = link(fragment(text(), 400));
+    const auto replace = [&](std::shared_ptr<Program> fresh) {
+        fresh->inheritValues(*program);
+        program = std::move(fresh);
+    };
     program->subroutines().choose(kFragment, "one", "squared");
     CHECK(draw(*program).x == 9);
-    const auto reloaded = link(fragment(text("uniform float more;\n"), 400));
-    program->replaceBy(*reloaded);
+    replace(link(fragment(text("uniform float more;\n"), 400)));
     CHECK(draw(*program).x == 9);
-    const auto without =
-        link(fragment("layout(location = 0) out vec4 c; void main() { c = vec4(0); }", 400));
-    program->replaceBy(*without);
+    replace(link(fragment("layout(location = 0) out vec4 c; void main() { c = vec4(0); }", 400)));
     CHECK(draw(*program).x == 0);
     CHECK(program->subroutines().empty());
-    const auto again = link(fragment(text(), 400));
-    program->replaceBy(*again);
+    replace(link(fragment(text(), 400)));
     CHECK(draw(*program) == glm::vec4(9, 8, 10, 1));
 }
 
@@ -95,8 +95,9 @@ TEST_CASE_FIXTURE(SubroutineFixture, "Modules choose functions to start with") {
     CHECK(told() == "wrong.xml:1:5 unmatched-uniform\n");
     // What was not chosen by hand follows the module.
     m.subroutines = {{"one", "twice", kFragment, place}};
-    program->replaceBy(*link(m));
-    CHECK(draw(*program) == glm::vec4(6, 8, 10, 1));
+    const auto edited = link(m);
+    edited->inheritValues(*program);
+    CHECK(draw(*edited) == glm::vec4(6, 8, 10, 1));
 }
 
 } // namespace terrane
