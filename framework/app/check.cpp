@@ -2,6 +2,7 @@
 #include "app/check.h"
 
 #include "app/player.h"
+#include "resource/prepared_data.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -30,19 +31,21 @@ const char* word(Severity severity) {
 } // namespace
 
 void sortByPlace(std::vector<Diagnostic>& diagnostics) {
+    static const std::string kNone;
     const auto key = [](const Diagnostic& d) {
-        return std::make_tuple(d.place ? d.place.file->path() : std::string(), d.place.offset);
+        const std::string& file = d.place ? d.place.file->path() : kNone;
+        return std::tie(file, d.place.offset, d.code, d.message);
     };
     std::stable_sort(diagnostics.begin(), diagnostics.end(),
                      [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
 }
 
 std::vector<Diagnostic> checkArchive(const Registry& registry, const std::filesystem::path& archive,
-                                     const std::vector<std::filesystem::path>& paths) {
+                                     const std::vector<std::filesystem::path>& paths, bool unused) {
     // Nothing is drawn, so the picture can be small.
     Player player(registry,
                   {.archive = archive, .paths = paths, .width = 64, .height = 64, .debug = true});
-    player.check();
+    player.check(unused);
     std::vector<Diagnostic> diagnostics = player.diagnostics().all();
     sortByPlace(diagnostics);
     return diagnostics;
@@ -70,7 +73,9 @@ std::string toJson(const std::vector<Diagnostic>& diagnostics) {
 }
 
 std::string DiagnosticCounts::toString() const {
-    return counted(errors, "error") + ", " + counted(warnings, "warning");
+    const std::string skips =
+        skipped > 0 ? ", " + std::to_string(skipped) + " skipped: data not prepared" : "";
+    return counted(errors, "error") + ", " + counted(warnings, "warning") + skips;
 }
 
 DiagnosticCounts count(const std::vector<Diagnostic>& diagnostics) {
@@ -78,6 +83,7 @@ DiagnosticCounts count(const std::vector<Diagnostic>& diagnostics) {
     for (const Diagnostic& d : diagnostics) {
         if (d.severity == Severity::error) ++counts.errors;
         if (d.severity == Severity::warning) ++counts.warnings;
+        if (d.code == kDataNotPrepared) ++counts.skipped;
     }
     return counts;
 }

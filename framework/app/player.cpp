@@ -7,9 +7,12 @@
 #include "render/context.h"
 #include "render/program_bindings.h"
 #include "render/render_target.h"
+#include "render/unmatched_uniforms.h"
 #include "resource/library.h"
 #include "resource/manager.h"
+#include "resource/unused_resources.h"
 #include "scene/scene_manager.h"
+#include "scene/unmatched_flags.h"
 #include "task/multithread_scheduler.h"
 #include "terrain/terrain_node.h"
 #include "terrain/tile_sampler.h"
@@ -53,10 +56,12 @@ bool Player::load() {
     return drawable && (good_ || options_.keepGoing);
 }
 
-void Player::check() {
+void Player::check(bool unused) {
     if (!open()) return;
     resources_->loadAll();
     setScene(false);
+    reportUnmatchedUniforms(*resources_); // of programs that the scene does not use, too
+    if (unused) reportUnusedResources(*resources_, roots());
 }
 
 bool Player::open() {
@@ -112,6 +117,8 @@ bool Player::setScene(bool rootRequired) {
     metrics_.startup.load += milliseconds(begin, loaded);
     if (!settings_.root) return false;
     const bool planned = scene_->plan();
+    reportUnmatchedUniforms(*resources_);
+    if (planned) reportUnmatchedFlags(*scene_);
     metrics_.startup.compile = milliseconds(loaded, Clock::now());
     setStartView();
     return planned && scheduled;

@@ -64,7 +64,8 @@ public:
     bool load();
     /// Instead of load(): loads every entry, used or not, and binds the methods of the frame if
     /// there is a root node. To be called once.
-    void check();
+    /// @param unused whether to tell of entries that nothing which is played uses
+    void check(bool unused = false);
 
     /// Reads the archive and its files again, between two frames: what changed is built anew, with
     /// what was made from it, or, after errors, everything stays as it was. The camera stays, and

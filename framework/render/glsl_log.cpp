@@ -83,6 +83,19 @@ bool readNvidia(std::string_view line, GlslMessage& message) {
     return true;
 }
 
+// AMD's own number: `error(#143) text`. NVIDIA has one before its linker's messages: `C5145: text`.
+void skipNumber(LineReader& reader) {
+    LineReader numbered = reader;
+    Severity severity{};
+    int number = 0;
+    if (numbered.severity(severity) && numbered.text("(#") && numbered.number(number) &&
+        numbered.text(")")) {
+        numbered.text(":");
+        numbered.text(" ");
+        reader = numbered;
+    }
+}
+
 // `ERROR: 0:12: text`, and Mesa's linker: `error: text`
 bool readSeverityFirst(std::string_view line, GlslMessage& message) {
     LineReader reader(line);
@@ -96,8 +109,16 @@ bool readSeverityFirst(std::string_view line, GlslMessage& message) {
     } else {
         message.line = 0;
     }
+    skipNumber(reader);
     message.text = reader.rest();
     return true;
+}
+
+// AMD names the text that it found on a line of its own, and NVIDIA one given to `#line` in quotes:
+// `"s.glsl"(12) : error C1008: text`
+std::string_view withoutFileName(std::string_view line) {
+    const std::size_t close = line.starts_with('"') ? line.find('"', 1) : std::string_view::npos;
+    return close == std::string_view::npos ? line : line.substr(close + 1);
 }
 
 // `0:12: L0001: text`, of mobile drivers
@@ -114,6 +135,7 @@ bool readPlaceFirst(std::string_view line, GlslMessage& message) {
 }
 
 bool readMessage(std::string_view line, GlslMessage& message) {
+    line = withoutFileName(line);
     for (const auto read : {readMesa, readNvidia, readSeverityFirst, readPlaceFirst}) {
         GlslMessage candidate;
         if (!read(line, candidate)) continue;
@@ -123,11 +145,15 @@ bool readMessage(std::string_view line, GlslMessage& message) {
     return false;
 }
 
-// "2 compilation errors. No code generated." and the stage headings of NVIDIA's linker say nothing.
+// Headings and counts, which say nothing: "2 compilation errors. No code generated.", the stages of
+// NVIDIA's linker, AMD's "Vertex shader failed to compile with the following errors:".
 bool isSummary(std::string_view text) {
-    return text.find("compilation errors") != std::string_view::npos ||
-           text.find("No code generated") != std::string_view::npos ||
-           text.find_first_not_of("- \t") == std::string_view::npos || text.ends_with(" info");
+    const auto has = [&](std::string_view words) { return text.find(words) != text.npos; };
+    return has("compilation errors") || has("No code generated") ||
+           has("with the following errors:") || has("with the following warnings:") ||
+           has(" shader(s) linked.") ||
+           has(" shader was successfully compiled to run on hardware.") ||
+           text.find_first_not_of("- \t") == text.npos || text.ends_with(" info");
 }
 
 // Mesa lists the candidates of a failed overload resolution as messages of their own, indented.
@@ -178,12 +204,26 @@ CollapsedLine collapse(std::string_view text, std::size_t begin) {
     return line;
 }
 
-// `x' as Mesa quotes, 'x' and "x" as the others do.
+// The name that AMD puts behind the last colon: `Undeclared identifier: x`.
+std::string_view nameBehindColon(std::string_view message) {
+    const std::size_t colon = message.rfind(": ");
+    if (colon == std::string_view::npos) return {};
+    std::string_view name = message.substr(colon + 2);
+    while (!name.empty() && name.back() == ' ')
+        name.remove_suffix(1);
+    const bool word = !name.empty() && isGlslIdentifierStart(name[0]) &&
+                      std::all_of(name.begin(), name.end(), isGlslIdentifierPart);
+    return word ? name : std::string_view{};
+}
+
+// `x' as Mesa quotes, 'x' and "x" as the others do; of a syntax error of NVIDIA's, what it found.
 std::string_view quotedName(std::string_view message) {
+    if (const std::size_t token = message.find("at token \""); token != std::string_view::npos)
+        message.remove_prefix(token);
     const std::size_t open = message.find_first_of("`'\"");
-    if (open == std::string_view::npos) return {};
+    if (open == std::string_view::npos) return nameBehindColon(message);
     const std::size_t close = message.find_first_of("'\"", open + 1);
-    if (close == std::string_view::npos) return {};
+    if (close == std::string_view::npos) return nameBehindColon(message);
     std::string_view name = message.substr(open + 1, close - open - 1);
     // `f(vec3)' names a function with its arguments.
     name = name.substr(0, name.find('('));

@@ -21,9 +21,11 @@ struct GlslMessage {
 };
 
 /// Takes the log of a compiler or linker apart. Understood are the forms of Mesa
-/// (`0:12(5): error: ...`), NVIDIA (`0(12) : error C1008: ...`) and AMD, Intel and Apple
-/// (`ERROR: 0:12: ...`); what has none of these becomes the detail of the message before it, or
-/// a message without a place. Any bytes are accepted. Pure CPU, any thread.
+/// (`0:12(5): error: ...`; AMD's and Intel's on Linux are Mesa's), NVIDIA (`0(12) : error C1008:
+/// ...`), AMD on Windows (`ERROR: 0:12: error(#143) ...`), Intel on Windows, Apple and other users
+/// of the reference compiler (`ERROR: 0:12: ...`), and mobile drivers (`0:12: L0001: ...`); what
+/// has none of these becomes the detail of the message before it, or a message without a place. Any
+/// bytes are accepted. Pure CPU, any thread.
 std::vector<GlslMessage> parseGlslLog(std::string_view log);
 
 /// Where in `text` a message points; nothing when it tells no line. The column is exact for Mesa

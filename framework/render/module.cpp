@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/module.h"
 
+#include "core/text.h"
 #include "render/glsl_legacy.h"
 #include "render/glsl_log.h"
+#include "render/glsl_tokens.h"
+#include "resource/value_traits.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace terrane {
@@ -13,6 +17,41 @@ namespace {
 
 std::size_t index(ShaderStage stage) {
     return static_cast<std::size_t>(stage);
+}
+
+bool hasWord(std::string_view text, std::string_view word) {
+    const auto inWord = [&](std::size_t i) {
+        return i < text.size() && isGlslIdentifierPart(text[i]);
+    };
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string_view::npos; ++at) {
+        if ((at == 0 || !inWord(at - 1)) && !inWord(at + word.size())) return true;
+    }
+    return false;
+}
+
+// What the texts ask for: words of #if, #ifdef and so on.
+template <class Texts>
+std::vector<std::string> conditionsOf(const Texts& texts) {
+    std::set<std::string> names;
+    for (const auto& text : texts) {
+        if (!text) continue;
+        for (const GlslToken& token : scanGlsl(text->text())) {
+            const bool condition = token.directive.starts_with("if") || token.directive == "elif";
+            if (condition && token.kind == GlslToken::Kind::identifier) names.emplace(token.text);
+        }
+    }
+    return {names.begin(), names.end()};
+}
+
+// The name that an option defines: A of "A", "A 3" and "A(x) x".
+std::string_view macroOf(std::string_view option) {
+    std::size_t begin = 0;
+    while (begin < option.size() && !isGlslIdentifierPart(option[begin]))
+        ++begin;
+    std::size_t end = begin;
+    while (end < option.size() && isGlslIdentifierPart(option[end]))
+        ++end;
+    return option.substr(begin, end - begin);
 }
 
 } // namespace
@@ -60,7 +99,29 @@ bool Module::assemble(Diagnostics& diagnostics) {
     return complete;
 }
 
+// A misspelt option defines a macro that nobody asks for.
+void Module::warnUnusedOptions(Diagnostics& diagnostics) const {
+    detail::ValueWalker walker(source_.optionsPlace);
+    for (const std::string& option : source_.options) {
+        const Place place = walker.place();
+        walker.advance(option.size() + 1);
+        const std::string_view macro = macroOf(option);
+        const auto mentions = [&](const std::optional<GlslText>& text) {
+            return text && hasWord(text->text(), macro);
+        };
+        if (macro.empty() || std::any_of(texts_.begin(), texts_.end(), mentions)) continue;
+        diagnostics.report({.severity = Severity::warning,
+                            .code = "unused-option",
+                            .place = place,
+                            .message = "the text of module " + inQuotes(source_.name) +
+                                       " does not mention " + inQuotes(macro),
+                            .expected = "a macro that the text asks for",
+                            .suggestion = nearestName(macro, conditionsOf(texts_))});
+    }
+}
+
 void Module::compileStages(Diagnostics& diagnostics) {
+    warnUnusedOptions(diagnostics);
     std::vector<LegacyChange> changes;
     for (const ShaderStage stage : kShaderStages) {
         std::optional<GlslText>& text = texts_[index(stage)];

@@ -99,6 +99,7 @@ private:
 
     Module(const GlContext& context, ModuleSource source);
     bool assemble(Diagnostics& diagnostics);
+    void warnUnusedOptions(Diagnostics& diagnostics) const;
     void compileStages(Diagnostics& diagnostics);
 
     const GlContext& context_;

@@ -28,7 +28,8 @@ struct ResourceVersion {
         unloaded,
         loading,
         ready,
-        planned, ///< of a type that is not built yet: there is no instance, and no error
+        planned, ///< of a type that is not built yet, or of data that is not prepared yet: there
+                 ///< is no instance, and no error
         failed,  ///< there is no instance; the errors have been reported
     };
 

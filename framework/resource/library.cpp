@@ -2,6 +2,7 @@
 #include "resource/library.h"
 
 #include "core/text.h"
+#include "resource/prepared_data.h"
 
 #include <algorithm>
 
@@ -153,6 +154,15 @@ std::optional<fs::path> Library::findFile(const std::string& name, const Place& 
     }
     const auto found = searchPath_.find(name);
     if (!found) {
+        if (const auto script = preparingScript(searchPath_, name)) {
+            diagnostics.report(
+                {.severity = Severity::note,
+                 .code = kDataNotPrepared,
+                 .place = place,
+                 .message = "skipped: the data " + inQuotes(name) + " is not prepared yet",
+                 .expected = "the file that " + inQuotes(shownPath(*script)) + " makes"});
+            return std::nullopt;
+        }
         diagnostics.report({.code = "file-missing",
                             .place = place,
                             .message = "there is no file " + inQuotes(name),

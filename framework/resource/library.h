@@ -55,8 +55,9 @@ public:
     Diagnostics& diagnostics() const { return diagnostics_; }
 
     /// A data file of the search folders. Nothing, with a diagnostic at `place` ("file-missing",
-    /// "name-leaves-folders"), when there is none; a warning ("case-differs") when only the case
-    /// of its name differs.
+    /// "name-leaves-folders"), when there is none, or with a note ("data-not-prepared") when a
+    /// script has yet to make it (see prepared_data.h); a warning ("case-differs") when only the
+    /// case of its name differs.
     std::optional<std::filesystem::path> findFile(const std::string& name, const Place& place,
                                                   Diagnostics& diagnostics) const;
 

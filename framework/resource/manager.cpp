@@ -3,6 +3,7 @@
 
 #include "core/text.h"
 #include "resource/predecessors.h"
+#include "resource/prepared_data.h"
 #include "resource/transaction.h"
 
 #include <algorithm>
@@ -49,6 +50,21 @@ bool isReady(const RefBase& ref) {
 
 bool contains(const std::vector<ResourceEntry*>& list, const ResourceEntry& entry) {
     return std::find(list.begin(), list.end(), &entry) != list.end();
+}
+
+// The shorter list tells, since a scene may name all nodes, and all nodes a mesh.
+bool isConnected(const ResourceEntry& dependent, const ResourceEntry& entry) {
+    return dependent.dependencies.size() < entry.dependents.size()
+               ? contains(dependent.dependencies, entry)
+               : contains(entry.dependents, dependent);
+}
+
+// Whether all that keeps a resource from being built is data that a script has yet to prepare.
+bool lacksOnlyData(const Diagnostics& building) {
+    const std::vector<Diagnostic> all = building.all();
+    return building.errors() == 0 && std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
+               return d.code == kDataNotPrepared;
+           });
 }
 
 // Whether an element can be built: what it names is there, but for what is not built yet and can be
@@ -238,6 +254,10 @@ void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
                     "there is not enough memory for " + describe(entry));
     }
     entry.state = entry.instance ? ResourceEntry::State::ready : ResourceEntry::State::failed;
+    if (!entry.instance && lacksOnlyData(local)) {
+        entry.state = ResourceEntry::State::planned;
+        entry.incomplete = true; // and so tried again by the next reload
+    }
     entry.order = ++built_;
     if (!entry.instance) dropChildren(*entry.description);
 }
@@ -280,11 +300,13 @@ bool ResourceManager::isKept(const Child& previous, const Child& child) const {
 }
 
 void ResourceManager::connect(ResourceEntry& dependent, ResourceEntry& entry, bool live) {
-    if (!contains(dependent.dependencies, entry)) {
+    const bool isNew = !isConnected(dependent, entry);
+    if (isNew) {
         dependent.dependencies.push_back(&entry);
         entry.dependents.push_back(&dependent);
     }
-    if (!live && !contains(dependent.madeFrom, entry)) dependent.madeFrom.push_back(&entry);
+    if (!live && (isNew || !contains(dependent.madeFrom, entry)))
+        dependent.madeFrom.push_back(&entry);
 }
 
 void ResourceManager::resolve(const RefBase& ref, std::type_index interface,
@@ -323,7 +345,7 @@ void ResourceManager::checkUnused(const XmlElement& element) {
                              asTag(element.tag()) + " without a name is never used",
                              "an attribute 'name'");
     }
-    parseElement(element, *declaration, registry_, diagnostics_);
+    findFiles(parseElement(element, *declaration, registry_, diagnostics_).files);
 }
 
 void ResourceManager::reportUnknown(const std::string& name, const Place& place) {

@@ -76,6 +76,13 @@ std::shared_ptr<const XmlDocument> XmlDocument::parse(std::shared_ptr<const Sour
                           "XML syntax: " + fault->message, fault->expected);
         return nullptr;
     }
+    for (const std::size_t offset : findLooseCharacters(text)) {
+        const bool tag = text[offset] == '<';
+        diagnostics.warning("xml-character", {document->source_, offset},
+                            tag ? "a '<' in a value, where XML has none"
+                                : "a '&' that starts no entity of XML",
+                            tag ? "&lt;" : "&amp;");
+    }
     const pugi::xml_node root = document->document_.document_element();
     for (pugi::xml_node next = root.next_sibling(); next; next = next.next_sibling()) {
         if (next.type() != pugi::node_element) continue;

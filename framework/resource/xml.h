@@ -27,7 +27,8 @@ struct XmlAttribute {
 class XmlDocument : public std::enable_shared_from_this<XmlDocument> {
 public:
     /// Null, with a diagnostic "xml-syntax", when the text is no XML. A second root element is
-    /// ignored with a warning "extra-root".
+    /// ignored with a warning "extra-root"; what other parsers would refuse in values is taken as
+    /// it is, with a warning "xml-character".
     static std::shared_ptr<const XmlDocument> parse(std::shared_ptr<const SourceFile> source,
                                                     Diagnostics& diagnostics);
 

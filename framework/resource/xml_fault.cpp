@@ -25,10 +25,25 @@ bool inName(char c) {
     return startsName(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
 }
 
+// `&lt;` and so on, `&#60;`, `&#x3c;`.
+bool startsEntity(std::string_view text) {
+    const std::string_view name = text.substr(1, std::min(text.find(';'), text.size()) - 1);
+    if (name.size() + 1 == text.size()) return false; // no ';'
+    constexpr std::string_view kNames[] = {"lt", "gt", "amp", "quot", "apos"};
+    if (std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames)) return true;
+    const bool hexadecimal = name.starts_with("#x");
+    const std::string_view digits =
+        name.substr(std::min<std::size_t>(hexadecimal ? 2 : 1, name.size()));
+    return name.starts_with('#') && !digits.empty() &&
+           digits.find_first_not_of(hexadecimal ? "0123456789abcdefABCDEF" : "0123456789") == kNone;
+}
+
 class Scanner {
 public:
-    explicit Scanner(std::string_view text)
-        : text_(text) {}
+    /// @param loose gets the offsets of loose characters; may be null
+    explicit Scanner(std::string_view text, std::vector<std::size_t>* loose = nullptr)
+        : text_(text)
+        , loose_(loose) {}
 
     std::optional<XmlFault> run() {
         while (!fault_) {
@@ -194,6 +209,7 @@ private:
         }
         at_ = closing + 1;
         const std::string_view value = text_.substr(opening + 1, closing - opening - 1);
+        if (loose_) findLoose(opening + 1, value);
         const char next = peek();
         const bool proper = isSpace(next) || next == '>' || next == '/' || atEnd();
         if (!proper && swallowedMarkup(value)) {
@@ -205,6 +221,14 @@ private:
         return true;
     }
 
+    void findLoose(std::size_t begin, std::string_view value) {
+        for (std::size_t at = 0; (at = value.find_first_of("<&", at)) != kNone; ++at) {
+            // No entity is longer.
+            if (value[at] == '<' || !startsEntity(value.substr(at, 12)))
+                loose_->push_back(begin + at);
+        }
+    }
+
     // `a="1 b="2"` and `a="1>` + a new line + `<b c="2"`: the value ends where the next one starts.
     static bool swallowedMarkup(std::string_view value) {
         if (value.find_first_of("<\n") != kNone) return true;
@@ -213,6 +237,7 @@ private:
     }
 
     std::string_view text_;
+    std::vector<std::size_t>* loose_;
     std::size_t at_ = 0;
     std::vector<Open> open_;
     std::size_t runawayQuote_ = kNone;
@@ -223,6 +248,12 @@ private:
 
 std::optional<XmlFault> findXmlFault(std::string_view text) {
     return Scanner(text).run();
+}
+
+std::vector<std::size_t> findLooseCharacters(std::string_view text) {
+    std::vector<std::size_t> loose;
+    Scanner(text, &loose).run();
+    return loose;
 }
 
 } // namespace terrane

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace terrane {
 
@@ -20,5 +21,9 @@ struct XmlFault {
 /// where it gave up, which may be at the end of the file. Nothing when no fault is seen. Linear in
 /// the length of the text.
 std::optional<XmlFault> findXmlFault(std::string_view text);
+
+/// Offsets of each '<', and of each '&' that starts no entity of XML, in the values of attributes:
+/// our parser takes them as they are, others refuse the file. Linear in the length of the text.
+std::vector<std::size_t> findLooseCharacters(std::string_view text);
 
 } // namespace terrane

@@ -29,7 +29,7 @@ SceneNode* BindContext::findNode(const std::string& target) const {
         }
         return nullptr;
     }
-    const auto& nodes = scene_.nodes(target);
+    const auto& nodes = scene_.ask(target, {});
     return nodes.empty() ? nullptr : nodes.front();
 }
 

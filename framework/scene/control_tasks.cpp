@@ -64,7 +64,7 @@ public:
     BoundForeach(const ForeachDescription& d, const Tasks& tasks, BindContext& context)
         : culling_(d.culling)
         , parallel_(d.parallel) {
-        for (SceneNode* node : context.scene().nodes(*d.flag)) {
+        for (SceneNode* node : context.scene().ask(*d.flag, d.flag.place)) {
             if (!context.count(d.place)) break;
             context.setVariable(*d.var, node);
             iterations_.push_back({node, std::make_unique<BoundSequence>(tasks, context)});

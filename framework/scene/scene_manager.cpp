@@ -69,6 +69,7 @@ SceneNode* SceneManager::camera() {
 
 void SceneManager::changed() {
     indexed_ = planned_ = false;
+    askedFlags_.clear();
     plan_.reset();
     graph_.clear();
     for (ResourceEntry* const entry : uses_.dependencies)
@@ -93,6 +94,12 @@ const std::vector<SceneNode*>& SceneManager::nodes(const std::string& flag) {
         camera_ = cameras == nodesByFlag_.end() ? nullptr : cameras->second.front();
     }
     return nodesByFlag_[flag];
+}
+
+const std::vector<SceneNode*>& SceneManager::ask(const std::string& flag, const Place& place) {
+    Place& known = askedFlags_[flag];
+    if (!known) known = place;
+    return nodes(flag);
 }
 
 std::vector<std::string> SceneManager::flags() {
@@ -147,6 +154,7 @@ void SceneManager::updateVisibility(SceneNode& node, Visibility inherited) {
 bool SceneManager::plan() {
     if (planned_) return plan_ != nullptr;
     planned_ = true; // a failure is told once, not every frame
+    ask(*cameraFlag_, {});
     SceneNode* const eye = camera();
     Diagnostics& diagnostics = resources_.diagnostics();
     if (!eye) {

@@ -77,6 +77,12 @@ public:
     /// Nodes with a flag (their name is one), in document order, depth first.
     const std::vector<SceneNode*>& nodes(const std::string& flag);
 
+    /// The same for a method, which is remembered until the scene changes.
+    /// @param place where the flag is written; may be none
+    const std::vector<SceneNode*>& ask(const std::string& flag, const Place& place);
+    /// What methods asked for, and the camera's.
+    const std::map<std::string, Place>& askedFlags() const { return askedFlags_; }
+
     /// All flags that nodes have, for messages.
     std::vector<std::string> flags();
 
@@ -119,6 +125,7 @@ private:
     MessageLog messageLog_;
 
     std::map<std::string, std::vector<SceneNode*>> nodesByFlag_;
+    std::map<std::string, Place> askedFlags_;
     bool indexed_ = false;
     SceneNode* camera_ = nullptr;
     bool planned_ = false;

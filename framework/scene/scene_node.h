@@ -42,6 +42,7 @@ class SceneNode : public Resource {
 public:
     std::string name;
     std::vector<std::string> flags; ///< the name included
+    Place flagsPlace;               ///< of the first one; none without the attribute
     Place place;                    ///< of its element; none for a node that no archive describes
     glm::dmat4 localToParent{1};    ///< ignored on the root, whose frame is the world
     glm::dmat4 described{1};        ///< localToParent as the archive says it

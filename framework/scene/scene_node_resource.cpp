@@ -182,6 +182,7 @@ std::shared_ptr<SceneNode> buildNode(const NodeDescription& d, BuildContext& con
     node->place = d.place;
     node->name = *d.name;
     node->flags = *d.flags;
+    if (d.flags.given) node->flagsPlace = d.flags.place;
     if (!node->name.empty()) node->flags.push_back(node->name);
     NodeMaker maker(*node, context.diagnostics());
     for (const Child& child : d.children)

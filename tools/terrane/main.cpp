@@ -60,7 +60,7 @@ struct Arguments {
     std::vector<std::string> archives, paths;
     std::string archive, headless, size, view, plugin;
     std::optional<double> timeStep;
-    bool realTime = false, json = false, strict = false, update = false;
+    bool realTime = false, json = false, strict = false, unused = false, update = false;
     int samples = 1;
     std::string name, junit;
     std::string format = "xsd", output; ///< of the schema
@@ -159,6 +159,7 @@ void addOthers(CLI::App& app, Arguments& a) {
     check->add_option("archive", a.archives, "Archives")->required();
     check->add_flag("--json", a.json, "Tell the problems as JSON");
     check->add_flag("--strict", a.strict, "Warnings are failures, too");
+    check->add_flag("--unused", a.unused, "Warn of entries that nothing which is played uses");
     addCommon(*check, a);
 
     CLI::App* test = app.add_subcommand("test", "Run archive fixtures");
@@ -226,7 +227,7 @@ int play(const Registry& registry, Arguments& a) {
 int check(const Registry& registry, const Arguments& a) {
     std::vector<Diagnostic> all;
     for (const std::string& archive : a.archives) {
-        std::vector<Diagnostic> found = checkArchive(registry, archive, toPaths(a.paths));
+        std::vector<Diagnostic> found = checkArchive(registry, archive, toPaths(a.paths), a.unused);
         all.insert(all.end(), found.begin(), found.end());
     }
     sortByPlace(all);

@@ -2,11 +2,14 @@
 #include "app/check.h"
 
 #include "archive_folder.h"
+#include "core/files.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 using namespace terrane;
 
@@ -42,4 +45,58 @@ TEST_CASE("check finds archives that are not there") {
     const auto found = checkArchive(standardRegistry(), "/nowhere/at/all", {});
     REQUIRE(found.size() == 1);
     CHECK(found[0].code == "no-archive");
+}
+
+TEST_CASE("check tells what nothing that is played uses, when it is asked") {
+    ArchiveFolder folder;
+    folder.writeColour("1, 0, 0");
+    const auto before = checkArchive(standardRegistry(), folder.path(), {}, true);
+    CHECK(before.empty());
+    std::string text = readFile(folder.path() / "archive.xml").value_or("");
+    text.insert(text.rfind("</archive>"), "\n<node name=\"forgotten\"/>\n");
+    folder.write("archive.xml", text);
+    CHECK(checkArchive(standardRegistry(), folder.path(), {}).empty());
+    const auto found = checkArchive(standardRegistry(), folder.path(), {}, true);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].code == "unused-resource");
+    CHECK(found[0].severity == Severity::warning);
+    CHECK(found[0].place.position().column == 1);
+}
+
+TEST_CASE("check counts what is skipped for data that is not prepared") {
+    ArchiveFolder folder;
+    folder.write("prepare", "# makes: relief.png\n");
+    folder.write("archive.xml", R"(<archive>
+  <texture2D name="t" source="relief.png" internalformat="RGBA8"/>
+</archive>)");
+    const auto found = checkArchive(standardRegistry(), folder.path(), {});
+    CHECK(count(found).toString() == "0 errors, 0 warnings, 1 skipped: data not prepared");
+    const auto json = nlohmann::json::parse(toJson(found));
+    REQUIRE(json.size() == 1);
+    CHECK(json[0]["severity"] == "note");
+}
+
+TEST_CASE("diagnostics are sorted in one way, whoever came first") {
+    const auto a = std::make_shared<SourceFile>("a.xml", "12345");
+    const auto b = std::make_shared<SourceFile>("b.xml", "12345");
+    const std::vector<Diagnostic> sorted{
+        {.code = "z", .message = "m"},
+        {.code = "z", .place = {a, 1}, .message = "m"},
+        {.code = "b", .place = {a, 3}, .message = "m"},
+        {.code = "b", .place = {a, 3}, .message = "n"},
+        {.code = "c", .place = {a, 3}, .message = "a"},
+        {.code = "a", .place = {b, 0}, .message = "m"},
+    };
+    std::vector<std::size_t> order{0, 1, 2, 3, 4, 5};
+    do {
+        std::vector<Diagnostic> list;
+        for (const std::size_t i : order)
+            list.push_back(sorted[i]);
+        sortByPlace(list);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const bool same = list[i].code == sorted[i].code && list[i].place == sorted[i].place &&
+                              list[i].message == sorted[i].message;
+            REQUIRE(same);
+        }
+    } while (std::next_permutation(order.begin(), order.end()));
 }

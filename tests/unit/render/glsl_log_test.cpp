@@ -41,8 +41,48 @@ TEST_CASE("The messages of all drivers are understood") {
          "*** exception"},
         {"NVIDIA, linker", "(0) : error C6020: Constant register limit exceeded", Severity::error,
          0, 0, "Constant register limit exceeded"},
-        {"AMD, Intel", "ERROR: 0:12: 'bad' : undeclared identifier ", Severity::error, 12, 0,
-         "'bad' : undeclared identifier "},
+        {"Mesa, another text",
+         "3:120(17): error: value of type vec3 cannot be assigned to variable "
+         "of type float",
+         Severity::error, 120, 17,
+         "value of type vec3 cannot be assigned to variable of type float"},
+        {"Mesa, preprocessor's warning", "0:4(9): preprocessor warning: #warning careful",
+         Severity::warning, 4, 9, "#warning careful"},
+        {"Mesa, linker's input",
+         "error: fragment shader input `uv' has no matching output in the previous stage",
+         Severity::error, 0, 0,
+         "fragment shader input `uv' has no matching output in the previous stage"},
+        {"Mesa, linker's warning",
+         "warning: fragment shader varying x not written by vertex shader", Severity::warning, 0, 0,
+         "fragment shader varying x not written by vertex shader"},
+        {"NVIDIA, syntax",
+         "0(31) : error C0000: syntax error, unexpected '}', expecting ',' or ';' at token \"}\"",
+         Severity::error, 31, 0,
+         "syntax error, unexpected '}', expecting ',' or ';' at token \"}\""},
+        {"NVIDIA, another text", "2(5) : error C1503: undefined variable \"bad\"", Severity::error,
+         5, 0, "undefined variable \"bad\""},
+        {"NVIDIA, a name from #line", "\"s.glsl\"(5) : error C1008: undefined variable \"bad\"",
+         Severity::error, 5, 0, "undefined variable \"bad\""},
+        {"NVIDIA, linker without place",
+         "error: \"uv\" not declared as an output from the previous stage", Severity::error, 0, 0,
+         "\"uv\" not declared as an output from the previous stage"},
+        {"AMD on Windows", "ERROR: 0:12: error(#143) Undeclared identifier: bad", Severity::error,
+         12, 0, "Undeclared identifier: bad"},
+        {"AMD on Windows, warning",
+         "WARNING: 0:3: warning(#402) Implicit truncation of vector from size: 4 to size: 3",
+         Severity::warning, 3, 0, "Implicit truncation of vector from size: 4 to size: 3"},
+        {"AMD on Windows, linker", "ERROR: error(#280) Not all shaders have valid object code.",
+         Severity::error, 0, 0, "Not all shaders have valid object code."},
+        {"Intel on Windows", "ERROR: 0:12: 'assign' :  cannot convert from 'const float' to 'vec4'",
+         Severity::error, 12, 0, "'assign' :  cannot convert from 'const float' to 'vec4'"},
+        {"Apple", "ERROR: 0:12: Use of undeclared identifier 'bad'", Severity::error, 12, 0,
+         "Use of undeclared identifier 'bad'"},
+        {"Apple, version", "ERROR: 0:1: '' :  version '450' is not supported", Severity::error, 1,
+         0, "'' :  version '450' is not supported"},
+        {"Apple, linker", "ERROR: Input of fragment shader 'uv' not written by vertex shader",
+         Severity::error, 0, 0, "Input of fragment shader 'uv' not written by vertex shader"},
+        {"Intel on Windows, Apple", "ERROR: 0:12: 'bad' : undeclared identifier ", Severity::error,
+         12, 0, "'bad' : undeclared identifier "},
         {"AMD, warning", "WARNING: 0:3: implicit conversion", Severity::warning, 3, 0,
          "implicit conversion"},
         {"AMD, linker", "ERROR: Linking: no main", Severity::error, 0, 0, "Linking: no main"},
@@ -76,6 +116,87 @@ TEST_CASE("Lines that continue a message become its detail, summaries are left o
     CHECK(messages[0].detail == "    is not accessible");
     CHECK(parseGlslLog("").empty());
     CHECK(parseGlslLog("\n \n\r\n").empty());
+}
+
+TEST_CASE("Whole logs give the messages in them, and nothing else") {
+    struct Row {
+        const char* driver;
+        const char* log;
+        std::vector<std::string> messages; // "line text"
+    };
+    const Row rows[] = {
+        {"AMD on Windows",
+         "Fragment shader failed to compile with the following errors:\n"
+         "ERROR: 0:12: error(#143) Undeclared identifier: bad\n"
+         "ERROR: 0:14: error(#132) Syntax error: \"}\" parse error\n"
+         "ERROR: error(#273) 2 compilation errors.  No code generated\n\n",
+         {"12 Undeclared identifier: bad", "14 Syntax error: \"}\" parse error"}},
+        {"AMD on Windows, all well",
+         "Vertex shader was successfully compiled to run on hardware.\n"
+         "Vertex shader(s) linked.\n",
+         {}},
+        {"NVIDIA, linker",
+         "Vertex info\n-----------\n0(3) : error C1008: undefined variable \"a\"\n\n"
+         "Fragment info\n-------------\n0(9) : warning C7022: unrecognized profile specifier "
+         "\"b\"\n(0) : error C2003: incompatible options for link\n",
+         {"3 undefined variable \"a\"", "9 unrecognized profile specifier \"b\"",
+          "0 incompatible options for link"}},
+        {"Intel on Windows",
+         "ERROR: 0:12: 'bad' : undeclared identifier \n"
+         "ERROR: 0:12: 'assign' :  cannot convert from 'const float' to 'vec4'\n",
+         {"12 'bad' : undeclared identifier ",
+          "12 'assign' :  cannot convert from 'const float' to 'vec4'"}},
+        {"the reference compiler",
+         "ERROR: 0:12: 'bad' : undeclared identifier \n"
+         "ERROR: 1 compilation errors.  No code generated.\n\n",
+         {"12 'bad' : undeclared identifier "}},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.driver);
+        std::vector<std::string> messages;
+        for (const GlslMessage& m : parseGlslLog(row.log))
+            messages.push_back(std::to_string(m.line) + " " + m.text);
+        CHECK(messages == row.messages);
+    }
+}
+
+TEST_CASE("Every driver's message about an included file is told in that file") {
+    // `bad` stands in the included file, on the third line of what is compiled.
+    const auto archive = std::make_shared<const SourceFile>("archive.xml", "<module/>");
+    const auto outer = std::make_shared<const SourceFile>("s.glsl", "#include \"light.glsl\"\n");
+    const auto inner =
+        std::make_shared<const SourceFile>("light.glsl", "vec3 a;\nvec3 b = a + bad;\n");
+    GlslText included, text;
+    included.append(inner, 0, inner->text().size());
+    text.append("#version 330\n", {});
+    text.appendIncluded(included, {outer, 0});
+    struct Row {
+        const char* driver;
+        const char* log;
+        const char* place;
+    };
+    const Row rows[] = {
+        {"Mesa", "0:3(14): error: `bad' undeclared", "light.glsl:2:14"},
+        {"NVIDIA", "0(3) : error C1008: undefined variable \"bad\"", "light.glsl:2:14"},
+        {"AMD on Windows", "ERROR: 0:3: error(#143) Undeclared identifier: bad", "light.glsl:2:14"},
+        {"Intel on Windows", "ERROR: 0:3: 'bad' : undeclared identifier ", "light.glsl:2:14"},
+        {"Apple", "ERROR: 0:3: Use of undeclared identifier 'bad'", "light.glsl:2:14"},
+        {"mobile", "0:3: L0002: Undeclared variable 'bad'", "light.glsl:2:14"},
+        {"NVIDIA, a syntax error",
+         "0(3) : error C0000: syntax error, unexpected identifier, "
+         "expecting ';' at token \"bad\"",
+         "light.glsl:2:14"},
+        {"Intel, no name of the line", "ERROR: 0:3: 'assign' : cannot convert", "light.glsl:2:1"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.driver);
+        Diagnostics diagnostics;
+        reportCompileLog(row.log, true, text, "fragment", {archive, 0}, diagnostics);
+        REQUIRE(diagnostics.all().size() == 1);
+        const Diagnostic d = diagnostics.all()[0];
+        CHECK(d.place.toString() == row.place);
+        CHECK(d.chain == std::vector<std::string>{"#include at s.glsl:1:1"});
+    }
 }
 
 TEST_CASE("Columns of Mesa's preprocessed lines lead back to the author's") {

@@ -197,6 +197,50 @@ TEST_CASE("data files are found, or told") {
     CHECK(world.diagnostics.errors() == 1);
 }
 
+TEST_CASE("links in the folders are followed, wherever they lead") {
+    ArchiveWorld world;
+    TemporaryFolder elsewhere;
+    elsewhere.file("grass.png");
+    std::filesystem::create_directory_symlink(elsewhere.path(), world.folder.path() / "textures");
+    CHECK(world.library->findFile("textures/grass.png", {}, world.diagnostics));
+    CHECK(world.diagnostics.all().empty());
+}
+
+TEST_CASE("data that a script has yet to prepare is told as such") {
+    ArchiveWorld world;
+    world.folder.file("prepare", "#!/bin/sh\n# makes: DEM.dat\r\n# makes:  tiles/*.dat \n"
+                                 "#makes: no.dat\necho # makes: neither.dat\n"
+                                 "# makes: a*b*c\n# makes: e**\n");
+    struct Row {
+        const char* name;
+        const char* code;
+    };
+    const Row rows[] = {
+        {"DEM.dat", "data-not-prepared"},
+        {"tiles/0/1.dat", "data-not-prepared"},
+        {"tiles/.dat", "data-not-prepared"},
+        {"axbyc", "data-not-prepared"},
+        {"abc", "data-not-prepared"},
+        {"abbcc", "data-not-prepared"},
+        {"e", "data-not-prepared"},
+        {"dem.dat", "file-missing"},
+        {"x/DEM.dat", "file-missing"},
+        {"tiles/0.png", "file-missing"},
+        {"tiles/dat", "file-missing"},
+        {"no.dat", "file-missing"},
+        {"neither.dat", "file-missing"},
+        {"ac", "file-missing"},
+        {"abcd", "file-missing"},
+        {"../DEM.dat", "name-leaves-folders"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.name);
+        world.diagnostics.clear();
+        CHECK_FALSE(world.library->findFile(row.name, {}, world.diagnostics));
+        CHECK(world.find(row.code));
+    }
+}
+
 TEST_CASE("a path given by a user stands for an archive") {
     struct Row {
         std::string name;

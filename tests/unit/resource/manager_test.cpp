@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "resource/archive_world.h"
+#include "resource/unused_resources.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -393,6 +394,35 @@ TEST_CASE("a resource of its own file is told in that file, with the chain") {
         CHECK(d.chain[1] == "basket 'b'");
     }
     CHECK(world.manager->entries().at("file")->descriptor == world.folder / "file.xml");
+}
+
+TEST_CASE("what needs data that is not prepared yet is left out without an error") {
+    ArchiveWorld world;
+    world.folder.file("prepare", "# makes: data.txt\n");
+    world.load("<apple name=\"a\" file=\"data.txt\"/>");
+    CHECK(problems(world.diagnostics) == Lines{"data-not-prepared 1:32"});
+    CHECK(world.diagnostics.errors() + world.diagnostics.warnings() == 0);
+    CHECK(stateOf(world, "a") == State::planned);
+}
+
+TEST_CASE("entries that none of the roots needs are told") {
+    ArchiveWorld world;
+    const MarkedText marked(R"(<archive>
+<apple name="leaf"/>
+<apple name="root" friend="leaf"/>
+^<apple name="alone"/>
+^<apple name="pair" friend="leaf"/>
+<mould name="later"/>
+</archive>)");
+    REQUIRE(world.add(marked.text));
+    world.manager->loadAll();
+    const auto entry = [&](const char* name) { return world.manager->entries().at(name).get(); };
+    world.diagnostics.clear();
+    reportUnusedResources(*world.manager, {entry("root"), nullptr});
+    CHECK(problems(world.diagnostics) == expected(marked, {"unused-resource", "unused-resource"}));
+    world.diagnostics.clear();
+    reportUnusedResources(*world.manager, {});
+    CHECK(world.diagnostics.warnings() == 3); // nothing names them
 }
 
 TEST_CASE("files that a resource reads are recorded") {

@@ -42,7 +42,7 @@ TEST_CASE("files of the original load, with places as their authors typed them")
         {"bytes that are not ASCII",
          "<!-- \xc3\xa9\xc3\xa8 --><a y=\"\xc3\xa9\">^<b ^x=\"^1\"/></a>"},
         {"bytes of Latin 1", "<!-- \xe9\xe8 --><a y=\"\xe9\">^<b ^x=\"^1\"/></a>"},
-        {"markup in a value", "<a>^<b y=\"<c d='>'\" ^x=\"^1\"/></a>"},
+        {"the end of a tag in a value", "<a>^<b y=\"c d='>'\" ^x=\"^1\"/></a>"},
         {"a document type", "<!DOCTYPE a [ <!ELEMENT a (b)> ]><a>^<b ^x=\"^1\"/></a>"},
         {"text and CDATA", "<a>words <![CDATA[<b x=\"0\"/>]]>\n^<b ^x=\"^1\"/></a>"},
         {"an attribute that is like the tag", "<a>^<b b=\"x\" ^x=\"^1\"/></a>"},
@@ -144,6 +144,37 @@ TEST_CASE("a syntax error is told where the author can mend it") {
         CAPTURE(d.message);
         CHECK(d.message.find(row.message) != std::string::npos);
         CHECK(lineAndColumn(d.place) == marked.places.back());
+    }
+}
+
+TEST_CASE("characters that XML has no place for in a value are taken as they are, and told") {
+    struct Row {
+        std::string name;
+        const char* text; // '^' marks the places
+        const char* value;
+    };
+    const Row rows[] = {
+        {"markup", "<a x=\"^<c d='>'\"/>", "<c d='>'"},
+        {"a comparison", "<a x='1 ^< 2 ^<= 3'/>", "1 < 2 <= 3"},
+        {"an ampersand", "<a x=\"salt ^& pepper\"/>", "salt & pepper"},
+        {"an entity without its end", "<a x=\"^&lt\"/>", "&lt"},
+        {"an entity that nobody knows", "<a x=\"^&copy;\"/>", "&copy;"},
+        {"an empty entity", "<a x=\"^&;^&#;^&#x;\"/>", "&;&#;&#x;"},
+        {"an ampersand at the end", "<a x=\"^&\"/>", "&"},
+        {"entities", "<a x=\"&lt;&gt;&amp;&quot;&apos;&#65;&#x42;\"/>", "<>&\"'AB"},
+        {"in another element", "<a x='1'>\n<b/><c y='^&'/></a>", "1"},
+        {"outside of values", "<!-- < & --><a x='1'> & </a>", "1"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.name);
+        const MarkedText marked(row.text);
+        Diagnostics diagnostics;
+        const auto document = parse(marked.text, diagnostics);
+        REQUIRE(document);
+        CHECK(document->root().attribute("x") == row.value);
+        CHECK(diagnostics.errors() == 0);
+        CHECK(problems(diagnostics) ==
+              expected(marked, std::vector<std::string>(marked.places.size(), "xml-character")));
     }
 }
 
