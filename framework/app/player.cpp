@@ -13,6 +13,7 @@
 #include "resource/unused_resources.h"
 #include "scene/scene_manager.h"
 #include "scene/unmatched_flags.h"
+#include "scene/unmatched_values.h"
 #include "task/multithread_scheduler.h"
 #include "terrain/terrain_node.h"
 #include "terrain/tile_sampler.h"
@@ -61,6 +62,7 @@ void Player::check(bool unused) {
     resources_->loadAll();
     setScene(false);
     reportUnmatchedUniforms(*resources_); // of programs that the scene does not use, too
+    reportUnmatchedValues(*scene_);
     if (unused) reportUnusedResources(*resources_, roots());
 }
 
@@ -117,11 +119,15 @@ bool Player::setScene(bool rootRequired) {
     metrics_.startup.load += milliseconds(begin, loaded);
     if (!settings_.root) return false;
     const bool planned = scene_->plan();
-    reportUnmatchedUniforms(*resources_);
-    if (planned) reportUnmatchedFlags(*scene_);
+    if (planned) reportMisspellings();
     metrics_.startup.compile = milliseconds(loaded, Clock::now());
     setStartView();
     return planned && scheduled;
+}
+
+void Player::reportMisspellings() {
+    reportUnmatchedUniforms(*resources_);
+    reportUnmatchedFlags(*scene_);
 }
 
 // A file of resources for others has nothing to play and is fine for `check`.

@@ -158,6 +158,7 @@ private:
     bool setScene(bool rootRequired);
     bool findRoot(PlayerSettings& settings, bool required);
     bool bindScene();
+    void reportMisspellings();
     ReloadReport restart();
     ReloadReport replace();
     bool rebind(Reload& reload, PlayerSettings settings);

@@ -202,6 +202,7 @@ ReloadReport Player::replace() {
         PlayerSettings before = settings_;
         const bool bound = rebind(reload, std::move(settings));
         if (bound && !failed()) {
+            reportMisspellings();
             account(reload, report);
         } else {
             report.good = false;

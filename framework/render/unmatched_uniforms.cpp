@@ -38,16 +38,18 @@ public:
     }
 
     bool mention(const Module& module, std::string_view name) {
-        const auto has = [&](const Module& linked) {
-            const Words& words = wordsOf(linked);
-            return words.contains(name) || words.contains(kPaste); // of pasted names, any
-        };
-        if (has(module)) return true;
+        const Words& words = wordsOf(module);
+        return words.contains(name) || words.contains(kPaste); // of pasted names, any
+    }
+
+    // The module, or one that it is linked with.
+    bool mentionLinked(const Module& module, std::string_view name) {
+        if (mention(module, name)) return true;
         const auto& programs = module.programs();
         return std::any_of(programs.begin(), programs.end(), [&](const Program* program) {
             const auto& modules = program->modules();
             return std::any_of(modules.begin(), modules.end(),
-                               [&](const auto& linked) { return has(*linked); });
+                               [&](const auto& linked) { return mention(*linked, name); });
         });
     }
 
@@ -72,6 +74,13 @@ std::vector<std::string_view> identifiersOf(std::string_view name) {
     return result;
 }
 
+bool isAmong(const std::vector<std::string>& names, const std::vector<std::string_view>& name) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& other) {
+        const auto identifiers = identifiersOf(other);
+        return !name.empty() && !identifiers.empty() && identifiers.back() == name.back();
+    });
+}
+
 std::vector<std::string> activeUniforms(const Module& module) {
     std::set<std::string> names;
     for (const Program* program : module.programs()) {
@@ -85,14 +94,10 @@ void check(const Module& module, Texts& texts, Diagnostics& diagnostics) {
     const std::vector<std::string> active = activeUniforms(module);
     for (const InitialUniform& initial : module.uniforms()) {
         const auto identifiers = identifiersOf(initial.name);
-        const bool isActive = std::any_of(active.begin(), active.end(), [&](const auto& name) {
-            const auto others = identifiersOf(name);
-            return !identifiers.empty() && !others.empty() && others.back() == identifiers.back();
-        });
-        if (isActive) continue; // the texts need not be looked at
+        if (isAmong(active, identifiers)) continue; // the texts need not be looked at
         const bool mentioned =
             std::all_of(identifiers.begin(), identifiers.end(),
-                        [&](std::string_view name) { return texts.mention(module, name); });
+                        [&](std::string_view name) { return texts.mentionLinked(module, name); });
         if (mentioned) continue;
         diagnostics.report({.severity = Severity::warning,
                             .code = "unmatched-uniform",
@@ -112,6 +117,42 @@ void reportUnmatchedUniforms(ResourceManager& manager) {
         const auto* const module = dynamic_cast<const Module*>(entry->instance.get());
         if (!module || module->uniforms().empty() || module->programs().empty()) continue;
         check(*module, texts, manager.diagnostics());
+    }
+}
+
+void reportUnmatchedValues(ResourceManager& manager, const std::vector<NamedValue>& values) {
+    std::vector<const Module*> modules;
+    std::set<std::string> names;
+    for (const auto& [name, entry] : manager.entries()) {
+        const auto* const module = dynamic_cast<const Module*>(entry->instance.get());
+        if (!module) continue;
+        modules.push_back(module);
+        for (std::string& uniform : activeUniforms(*module))
+            names.insert(std::move(uniform));
+    }
+    const std::vector<std::string> active(names.begin(), names.end());
+    Texts texts;
+    std::map<std::string, bool> matched; // nodes mostly have the same
+    for (const NamedValue& value : values) {
+        const auto [known, isNew] = matched.try_emplace(value.name);
+        const auto isMentioned = [&](std::string_view identifier) {
+            return std::any_of(modules.begin(), modules.end(), [&](const Module* module) {
+                return texts.mention(*module, identifier);
+            });
+        };
+        if (isNew) {
+            const auto identifiers = identifiersOf(value.name);
+            known->second = isAmong(active, identifiers) ||
+                            std::all_of(identifiers.begin(), identifiers.end(), isMentioned);
+        }
+        if (known->second) continue;
+        manager.diagnostics().report(
+            {.severity = Severity::warning,
+             .code = "unmatched-uniform",
+             .place = value.place,
+             .message = "no program has a uniform " + inQuotes(value.name),
+             .expected = "the name of a uniform; without one, the value is lost",
+             .suggestion = nearestName(value.name, active)});
     }
 }
 

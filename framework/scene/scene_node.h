@@ -27,6 +27,7 @@ struct NodeValue {
     int components = 0; ///< 1..4; 0 for samplers
     glm::dvec4 value{0};
     Ref<Texture> texture;
+    Place place; ///< of its id
 };
 
 /// What a node does when a callMethod asks for it.

@@ -76,6 +76,7 @@ void checkValue(const ValueDescription& d, Diagnostics& diagnostics) {
 
 NodeValue valueOf(const ValueDescription& d) {
     NodeValue value;
+    value.place = d.key.place;
     if (!d.x.given) {
         value.type = NodeValue::Type::sampler;
         value.texture = d.texture;

@@ -32,7 +32,7 @@ void addMatches(const std::string& text, const std::regex& pattern, const std::s
 // What is written as a code is: where one is given, and every other word with a '-' between quotes.
 Names codesInSources() {
     static const std::regex given(
-        R"re((?:\.code = |\b(?:error|warning)\()\s*"([a-z][a-z0-9-]*)")re");
+        R"re((?:\.code = |\b(?:error|warning)\()\s*"([a-z](?:[a-z0-9-]*[a-z0-9])?)")re");
     static const std::regex word(R"re("([a-z]+(?:-[a-z0-9]+)+)")re");
     static const std::regex missing(R"re(reportMissing\([^;"]*"([a-z]+)")re");
     Names codes;
