@@ -10,7 +10,10 @@ BuildContext::findFile(const std::string& name, const Place& place,
                        FileStamp::Significant significant) const {
     ++uses_;
     auto path = manager_.library().findFile(name, place, diagnostics_);
-    if (path) addFile(name, *path, significant);
+    if (path)
+        addFile(name, *path, significant);
+    else
+        entry_.files.push_back({name, {}, {}}); // it may come to be
     return path;
 }
 

@@ -18,8 +18,8 @@ struct ResourceEntry;
 /// A file that a resource was made from, and the name that led there.
 struct UsedFile {
     std::string name;
-    std::filesystem::path path;
-    FileStamp stamp; ///< from before it was read
+    std::filesystem::path path; ///< empty: there was no such file, and the resource did without it
+    FileStamp stamp;            ///< from before it was read
 };
 
 /// What a resource is at the moment; a reload replaces all of it, or nothing.

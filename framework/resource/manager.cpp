@@ -254,10 +254,7 @@ void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
                     "there is not enough memory for " + describe(entry));
     }
     entry.state = entry.instance ? ResourceEntry::State::ready : ResourceEntry::State::failed;
-    if (!entry.instance && lacksOnlyData(local)) {
-        entry.state = ResourceEntry::State::planned;
-        entry.incomplete = true; // and so tried again by the next reload
-    }
+    if (!entry.instance && lacksOnlyData(local)) entry.state = ResourceEntry::State::planned;
     entry.order = ++built_;
     if (!entry.instance) dropChildren(*entry.description);
 }

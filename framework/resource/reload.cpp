@@ -50,6 +50,7 @@ Reload::~Reload() {
 }
 
 bool Reload::isChanged(const UsedFile& file) {
+    if (file.path.empty()) return fresh_.searchPath().find(file.name).has_value();
     const auto [known, isNew] = fileChanged_.try_emplace(file.path);
     if (isNew) {
         // The name may lead to another file than before.

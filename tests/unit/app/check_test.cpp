@@ -3,12 +3,17 @@
 
 #include "archive_folder.h"
 #include "core/files.h"
+#include "core/text.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <regex>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace terrane;
@@ -99,4 +104,36 @@ TEST_CASE("diagnostics are sorted in one way, whoever came first") {
             REQUIRE(same);
         }
     } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("the keys of the JSON are those that docs/diagnostics.md lists") {
+    const char* const source = std::getenv("TERRANE_SOURCE");
+    if (!source) {
+        MESSAGE("skipped: TERRANE_SOURCE is not set");
+        return;
+    }
+    const auto page = readFile(std::filesystem::path(source) / "docs" / "diagnostics.md");
+    REQUIRE(page);
+    const std::size_t begin = page->find("| Key |");
+    const std::string table = page->substr(begin, page->find("\n\n", begin) - begin);
+    std::set<std::string> listed;
+    for (const std::string_view row : split(table, '\n')) {
+        const std::string cell(split(row, '|').at(1));
+        static const std::regex key("`([a-z]+)`");
+        for (std::sregex_iterator match(cell.begin(), cell.end(), key), end; match != end; ++match)
+            listed.insert((*match)[1]);
+    }
+    const auto file = std::make_shared<SourceFile>("a.xml", "1");
+    const Diagnostic all{.code = "c",
+                         .place = {file, 0},
+                         .message = "m",
+                         .expected = "e",
+                         .suggestion = "s",
+                         .detail = "d",
+                         .chain = {"n"}};
+    std::set<std::string> written;
+    const auto json = nlohmann::json::parse(toJson({all}));
+    for (const auto& item : json[0].items())
+        written.insert(item.key());
+    CHECK(written == listed);
 }

@@ -325,3 +325,18 @@ TEST_CASE("a reload that is given up rolls back") {
     CHECK(world.instance("root") == root);
     CHECK(&world.world.manager->library() == world.world.library.get());
 }
+
+TEST_CASE("data that was not prepared is taken when it comes, and costs nothing until then") {
+    EditedWorld world(R"(<apple name="root"/>)");
+    const std::string entries = R"(<apple name="root" friend="a"/> <apple name="a" file="b.txt"/>)";
+    world.world.folder.file("prepare", "# makes: b.txt\n");
+    CHECK(world.edit(entries));
+    CHECK(world.instance("root"));
+    CHECK_FALSE(world.instance("a"));
+    CHECK(world.reload());
+    CHECK(world.affected == Lines{});
+    world.world.folder.file("b.txt");
+    CHECK(world.reload());
+    CHECK(world.affected == Lines{"a", "root"});
+    CHECK(world.instance("a"));
+}
