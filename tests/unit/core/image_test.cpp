@@ -236,6 +236,20 @@ TEST_CASE("an image that ends too early is damaged") {
     }
 }
 
+TEST_CASE("a colour that a palette does not have is black, whatever was in memory before") {
+    const auto little = [](std::uint32_t value) {
+        const std::string bytes = bigEndian(value, 4);
+        return std::string(bytes.rbegin(), bytes.rend());
+    };
+    // A BMP of 4 x 1 pixels of 8 bits; the palette has one colour, (3, 2, 1).
+    const std::string bytes = "BM" + little(62) + little(0) + little(58) + little(40) + little(4) +
+                              little(1) + little(8 << 16 | 1) + little(0) + little(4) + little(0) +
+                              little(0) + little(1) + little(0) + std::string("\1\2\3\0", 4) +
+                              std::string("\0\1\x80\xff", 4);
+    const Image image = decodeGood(bytes);
+    CHECK(image.bytes == std::vector<unsigned char>{3, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+}
+
 TEST_CASE("an image that claims an absurd size is refused before memory is taken") {
     std::string png = encodePng(gradient(4, 4, 3));
     const auto withSize = [&](std::uint32_t width, std::uint32_t height) {
