@@ -4,6 +4,7 @@
 #include "app/options.h"
 #include "core/text.h"
 
+#include <cmath>
 #include <utility>
 
 namespace terrane {
@@ -30,7 +31,8 @@ public:
         const auto text = word();
         if (!text) return std::nullopt;
         const auto number = parseReal(*text);
-        if (!number || number->length != text->size()) return std::nullopt;
+        if (!number || number->length != text->size() || !std::isfinite(number->value))
+            return std::nullopt;
         return number->value;
     }
     std::optional<int> count() {
@@ -151,7 +153,8 @@ Parsed parseImage(Words& words) {
     if (words.empty()) return command;
     const std::string text = *words.word();
     const auto number = parseReal(text);
-    if (!number || text.substr(number->length) != "%") return std::nullopt;
+    if (!number || text.substr(number->length) != "%" || !std::isfinite(number->value))
+        return std::nullopt;
     command.percent = number->value;
     return command;
 }
@@ -189,18 +192,35 @@ std::optional<std::vector<bool>> parseStates(Words& words) {
     return std::nullopt;
 }
 
+/// Takes a character of UTF-8 off the front of a text; U+FFFD for a byte that belongs to none.
+char32_t takeCharacter(std::string_view& text) {
+    const auto byte = [text](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
+    const unsigned first = byte(0);
+    const std::size_t length = first < 0x80         ? 1
+                               : first >> 5 == 0x06 ? 2
+                               : first >> 4 == 0x0e ? 3
+                               : first >> 3 == 0x1e ? 4
+                                                    : 0;
+    char32_t character = length < 2 ? first : first & (0x7fU >> length);
+    bool wellFormed = length > 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        wellFormed = wellFormed && byte(i) >> 6 == 2;
+        character = character << 6 | (byte(i) & 0x3f);
+    }
+    static constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000}; // of this length
+    const bool surrogate = character >= 0xd800 && character <= 0xdfff;
+    wellFormed = wellFormed && character >= kSmallest[length] && character <= 0x10ffff;
+    wellFormed = wellFormed && !surrogate;
+    text.remove_prefix(wellFormed ? length : 1);
+    return wellFormed ? character : U'\ufffd';
+}
+
 std::vector<char32_t> characters(std::string_view text) {
     std::vector<char32_t> result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        if ((byte & 0xc0) == 0x80 && !result.empty())
-            result.back() = result.back() << 6 | (byte & 0x3f);
-        else
-            result.push_back(byte >= 0xf0   ? byte & 0x07
-                             : byte >= 0xe0 ? byte & 0x0f
-                             : byte >= 0xc0 ? byte & 0x1f
-                                            : byte);
-    }
+    while (!text.empty())
+        result.push_back(takeCharacter(text));
     return result;
 }
 

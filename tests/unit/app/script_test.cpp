@@ -97,6 +97,30 @@ TEST_CASE("what a person does is understood") {
     CHECK(std::get<TextEvent>(text[3]).character == U'\u20ac');
 }
 
+TEST_CASE("a byte that is no character of UTF-8 is typed as the replacement character") {
+    struct Row {
+        const char* name;
+        std::string bytes;
+        std::u32string characters;
+    };
+    const Row rows[] = {
+        {"the largest character", "\xf4\x8f\xbf\xbf", {0x10ffff}},
+        {"beyond it", "\xf4\x90\x80\x80", U"\ufffd\ufffd\ufffd\ufffd"},
+        {"a byte of no character", "a\xff", U"a\ufffd"},
+        {"a continuation alone", "\x80z", U"\ufffdz"},
+        {"cut off", "\xe2\x82", U"\ufffd\ufffd"},
+        {"longer than it needs to be", "\xc1\xa1", U"\ufffd\ufffd"},
+        {"half of a pair of UTF-16", "\xed\xa0\x80", U"\ufffd\ufffd\ufffd"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.name);
+        std::u32string characters;
+        for (const InputEvent& event : command<InputCommand>("text " + row.bytes).events)
+            characters += std::get<TextEvent>(event).character;
+        CHECK(characters == row.characters);
+    }
+}
+
 TEST_CASE("attributes are set by name") {
     const auto set = command<SetCommand>("set a.b.c \"1, 2\"");
     CHECK(set.resource == "a.b");
@@ -143,6 +167,10 @@ TEST_CASE("a line that is no command says what was expected") {
         {"mouse down",
          "expected: mouse move X Y (pixels from the top left), or mouse down|up left|middle|right"},
         {"wheel up", "expected: wheel STEPS (up is above 0)"},
+        {"wheel inf", "expected: wheel STEPS (up is above 0)"},
+        {"mouse move nan 1",
+         "expected: mouse move X Y (pixels from the top left), or mouse down|up left|middle|right"},
+        {"expect image a.png nan%", "expected: expect image FILE [PIXELS%]"},
         {"text", "expected: text STRING"},
         {"screenshot \"a.png", "a quote is not closed"},
         {"expect tile x == 1", "unknown expectation 'tile'; did you mean 'tiles'?"},
