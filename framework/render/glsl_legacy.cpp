@@ -171,7 +171,11 @@ private:
         std::string from = "#" + std::string(directive);
         if (directive == "extension") from += " " + std::string(argument);
         changes_.push_back({text_.place(begin), std::move(from), ""});
-        edits_.push_back({begin, end - begin, ""});
+        // A comment or a backslash may carry it over several lines.
+        const auto first = text_.text().begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto lines =
+            std::count(first, first + static_cast<std::ptrdiff_t>(end - begin), '\n');
+        edits_.push_back({begin, end - begin, std::string(static_cast<std::size_t>(lines), '\n')});
         return last;
     }
 

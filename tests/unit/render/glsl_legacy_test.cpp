@@ -111,6 +111,8 @@ TEST_CASE("Old spellings are rewritten where core GLSL refuses them") {
         {"other extensions", 330, "#extension GL_ARB_gpu_shader5 : enable\nx",
          "#extension GL_ARB_gpu_shader5 : enable\nx"},
         {"line directives", 330, "a\n  # line 7 3 \nb", "a\n   \nb"},
+        {"directives over several lines", 330,
+         "#extension GL_EXT_gpu_shader4 /* a\nb */ : enable\n#line \\\n7\nc", "\n\n\n\nc"},
     };
     for (const Row& row : rows) {
         CAPTURE(row.name);
