@@ -23,8 +23,8 @@ namespace terrane {
 ///
 /// Quads that are not drawn only because of elevations that they inherited are measured one after
 /// the other, as long as there is room for their tiles: what stands out of them is seen some frames
-/// later, and the picture is not complete before. When tiles are made again, what was measured of
-/// others is forgotten, too.
+/// later, and the picture is not complete before. When tiles are made again, or the sampler is
+/// new, what was measured of others is forgotten, too.
 class TileSamplerZ final : public TileSampler {
 public:
     /// Of the tiles, whose channel z is the elevation.
@@ -69,8 +69,10 @@ private:
     /// frames to stay short.
     std::array<int, 8> chosen_{};
     int chosenCount_ = 0;
-    bool doubting_ = false;                  ///< a doubtful quad has a tile, or is to get one
-    std::uint64_t invalidations_ = 0;        ///< of the cache that the measurements have heard of
+    bool doubting_ = false; ///< a doubtful quad has a tile, or is to get one
+    /// Of the cache that the measurements have heard of; none before the first update, since
+    /// another sampler may have measured other tiles on this terrain before a reload.
+    std::optional<std::uint64_t> invalidations_;
     std::optional<std::uint64_t> updatedIn_; ///< number of the frame
     bool waiting_ = false; ///< there was no room to ask for what is below the camera
     bool moving_ = false;  ///< the next two are those of the frame before

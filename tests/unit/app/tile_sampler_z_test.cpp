@@ -285,6 +285,24 @@ TEST_CASE("tiles that are made again are read again") {
     CHECK(hills.terrain().groundHeight() == ground);
 }
 
+TEST_CASE("a sampler that a reload makes anew forgets what the one before it measured") {
+    Hills hills;
+    Player& player = hills.player();
+    REQUIRE(player.load());
+    for (const int view : {2, 0}) { // from above, and from the ground, which hides some of it
+        hills.look(kViews[view]);
+        REQUIRE(player.drawUntilComplete());
+    }
+    const TerrainNode* const terrain = &hills.terrain();
+    REQUIRE(measuredQuads(*terrain) > 0);
+    REQUIRE(player.set("elevations1", "noise", "100,80,60,30,15,8,4") == "");
+    REQUIRE(player.frame());
+    REQUIRE(&hills.terrain() == terrain);
+    CHECK(measuredQuads(*terrain) == 0); // nor of quads that have no tile
+    REQUIRE(player.drawUntilComplete());
+    CHECK(measuredQuads(*terrain) > 0);
+}
+
 TEST_CASE("nothing visible is left out because of what was measured") {
     // The same flight, with measured bounds and without.
     Hills measuring;
