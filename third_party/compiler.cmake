@@ -24,6 +24,11 @@ if(TERRANE_SANITIZE)
     target_sources(terrane_sanitizer_options INTERFACE ${PROJECT_SOURCE_DIR}/tests/sanitizers/options.cpp)
 endif()
 
+# Coverage for libFuzzer, in all that a fuzz target may reach.
+if(TERRANE_FUZZ)
+    add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     # A precompiled header holds times and macros that ccache would otherwise count as changes.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a mesh file.
 #include "render/mesh_file.h"
+#include "require.h"
 
 #include <cstdint>
-#include <cstdlib>
 
 using namespace terrane;
 
@@ -13,8 +13,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         "a.mesh", std::string(reinterpret_cast<const char*>(data), size));
     Diagnostics diagnostics;
     const auto mesh = parseMesh(source, diagnostics);
-    if (mesh.has_value() == (diagnostics.errors() > 0)) std::abort();
-    for (const Diagnostic& diagnostic : diagnostics.all())
-        toString(diagnostic);
+    test::require(mesh.has_value() == (diagnostics.errors() == 0), "either a mesh or an error");
+    test::requireToldWell(diagnostics);
+    if (!mesh) return 0;
+    test::require(mesh->vertices.size() == mesh->vertexCount * mesh->stride(),
+                  "there are as many vertices as it says");
+    for (const std::uint32_t index : mesh->indices)
+        test::require(index < mesh->vertexCount, "an index has a vertex");
     return 0;
 }
