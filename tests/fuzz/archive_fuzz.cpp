@@ -121,7 +121,7 @@ public:
 
         Reload reload(manager_, fresh);
         rebuild(reload);
-        if (reload.failed() || roots.empty()) return; // rolled back, too
+        if (diagnostics_.errors() > 0 || roots.empty()) return; // rolled back, too
         reload.commit({roots.front()});
         checkGraph(manager_);
     }
