@@ -53,6 +53,7 @@ bool Player::load() {
     const bool drawable = open() && setScene(true);
     good_ = drawable && diagnostics_.errors() == 0;
     problemsEnd_ = diagnostics_.size();
+    if (good_) firstProblem_ = problemsEnd_; // what it warned of holds on
     showProblems();
     return drawable && (good_ || options_.keepGoing);
 }

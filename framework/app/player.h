@@ -70,7 +70,7 @@ public:
     /// Reads the archive and its files again, between two frames: what changed is built anew, with
     /// what was made from it, or, after errors, everything stays as it was. The camera stays, and
     /// so do values that were set. An archive that had errors from the start is loaded anew. Errors
-    /// and warnings of the reload before are forgotten.
+    /// and warnings of the reload before are forgotten, after a good one all errors.
     ReloadReport reload();
     /// Gives an attribute of an entry of the archive another value, by the same way as an edit of
     /// its file, but leaves the file alone. It counts until the file says something else there.

@@ -59,6 +59,8 @@ ReloadReport Player::reload() {
     } else {
         report = restart();
     }
+    // What went wrong while frames were drawn may be mended; what is not is in the log.
+    if (report.good && report.changed) firstProblem_ -= diagnostics_.forgetErrors();
     problemsEnd_ = diagnostics_.size();
     showProblems();
     const std::chrono::duration<double, std::milli> time = Clock::now() - begin;

@@ -164,6 +164,18 @@ void Diagnostics::forget(std::size_t first, std::size_t last) {
     std::lock_guard lock(mutex_);
     list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(std::min(first, list_.size())),
                 list_.begin() + static_cast<std::ptrdiff_t>(std::min(last, list_.size())));
+    countAgain();
+}
+
+std::size_t Diagnostics::forgetErrors() {
+    std::lock_guard lock(mutex_);
+    const std::size_t before = list_.size();
+    std::erase_if(list_, [](const Diagnostic& d) { return d.severity == Severity::error; });
+    countAgain();
+    return before - list_.size();
+}
+
+void Diagnostics::countAgain() {
     indexByHash_.clear();
     errors_ = warnings_ = 0;
     for (std::size_t i = 0; i < list_.size(); ++i) {

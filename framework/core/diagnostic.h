@@ -51,6 +51,8 @@ public:
     void clear();
     /// Forgets the diagnostics from one of the list of all() on, up to another.
     void forget(std::size_t first, std::size_t last);
+    /// Forgets all errors; how many there were.
+    std::size_t forgetErrors();
     /// Called for each new diagnostic, on the thread that reports it.
     void onReport(Listener listener);
     /// Where the places of diagnostics are by now, since files change while they are in use; called
@@ -58,6 +60,8 @@ public:
     void setRelocation(std::function<Place(const Place&)> relocation);
 
 private:
+    void countAgain();
+
     mutable std::mutex mutex_;
     std::vector<Diagnostic> list_;
     std::unordered_multimap<std::size_t, std::size_t> indexByHash_; ///< of code, place, message

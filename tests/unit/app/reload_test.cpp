@@ -471,3 +471,34 @@ TEST_CASE("a reload does not mind that workers make tiles of what it replaces") 
     }
     CHECK(same(archive.picture(), before));
 }
+
+TEST_CASE(
+    "what went wrong while frames were drawn is forgotten when it is mended, and told in place") {
+    EditedArchive archive;
+    Player& player = archive.open();
+    archive.edit("archive.xml", "nTiles=\"500\"", "nTiles=\"20\"");
+    CHECK(player.reload().good);
+    player.frame();
+    CHECK(player.diagnostics().errors() > 0);
+    CHECK(player.diagnostics().all().back().code == "cache-full");
+    archive.edit("archive.xml", "nTiles=\"20\"", "nTiles=\"500\"");
+    CHECK(player.reload().good);
+    CHECK(player.drawUntilComplete());
+    CHECK(player.diagnostics().errors() == 0);
+
+    // The sampler stays, while lines come to stand above it.
+    archive.edit("archive.xml", "<archive>", "<archive>\n<!-- one\nmore -->\n");
+    CHECK_FALSE(player.reload().changed);
+    archive.edit("archive.xml", "nTiles=\"500\"", "nTiles=\"501\"");
+    CHECK(player.reload().good);
+    player.controller().view.d = 10;
+    archive.edit("archive.xml", "splitFactor=\"2\"", "splitFactor=\"40\"");
+    CHECK(player.reload().rebuilt == Names{"relief"});
+    player.frame();
+    const std::vector<Diagnostic> all = player.diagnostics().all();
+    REQUIRE(!all.empty());
+    CHECK(all.back().code == "cache-full");
+    const LineColumn at = all.back().place.position();
+    const SourceFile now("archive.xml", archive.read("archive.xml"));
+    CHECK(now.line(at.line).find("<tileSampler ") != std::string_view::npos);
+}
