@@ -15,8 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-constexpr std::size_t kCuts = 200;      // of a file
-constexpr std::size_t kMutations = 500; // of a file
+constexpr std::size_t kCuts = 200;         // of a file, at most
+constexpr std::size_t kMutations = 500;    // of a file, at most
+constexpr std::size_t kOfAllFiles = 5'000; // of each kind: some seconds under sanitizers
 
 void run(const std::string& bytes) {
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
@@ -71,15 +72,17 @@ int main(int count, char** words) {
         std::fprintf(stderr, "usage: %s CORPUS...\n", words[0]);
         return 2;
     }
+    const std::size_t share = 1 + kOfAllFiles / corpus.size();
+    const std::size_t cuts = std::min(kCuts, share), mutations = std::min(kMutations, share);
     std::mt19937 random(1);
     for (const std::string& bytes : corpus) {
         run(bytes);
-        const std::size_t step = std::max<std::size_t>(1, bytes.size() / kCuts);
+        const std::size_t step = std::max<std::size_t>(1, bytes.size() / cuts);
         for (std::size_t length = 0; length < bytes.size(); length += step)
             run(bytes.substr(0, length));
-        for (std::size_t i = 0; i < kMutations; ++i)
+        for (std::size_t i = 0; i < mutations; ++i)
             run(mutated(bytes, corpus, random));
     }
-    std::printf("%zu files of the corpus, %zu mutations each\n", corpus.size(), kMutations);
+    std::printf("%zu files of the corpus, %zu mutations each\n", corpus.size(), mutations);
     return 0;
 }
