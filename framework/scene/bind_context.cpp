@@ -33,16 +33,22 @@ SceneNode* BindContext::findNode(const std::string& target) const {
     return nodes.empty() ? nullptr : nodes.front();
 }
 
-SceneNode* BindContext::nodeOf(const Attr<Target>& name) const {
+bool BindContext::isResource(const std::string& name) const {
+    return resources().library().find(name).has_value();
+}
+
+SceneNode* BindContext::nodeOf(const Attr<Target>& name, const std::string& ending) const {
     if (name->node.empty()) return nullptr;
     SceneNode* const node = findNode(name->node);
     if (!node) {
+        const bool resource = isResource(name->name + ending);
         diagnostics().report(
-            {.severity = Severity::warning,
+            {.severity = resource ? Severity::warning : Severity::error,
              .code = "unknown-target",
              .place = name.place,
-             .message = "no node matches the target '" + name->node + "'; '" + name->name +
-                        "' is taken as the name of a resource",
+             .message = "no node matches the target '" + name->node + "'" +
+                        (resource ? "; '" + name->name + "' is taken as the name of a resource"
+                                  : std::string()),
              .expected = "'this', '$variable' of a loop around it, or a flag of a node",
              .suggestion = suggestTarget(*name)});
     }

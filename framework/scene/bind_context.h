@@ -36,8 +36,17 @@ public:
 
     /// The node of a qualified name; the owner itself must not be meant by a plain name. Null for a
     /// plain name, and, with a warning "unknown-target", when no node matches: the name is then
-    /// taken as that of a resource, as archives of the original may rely on.
-    SceneNode* nodeOf(const Attr<Target>& name) const;
+    /// taken as that of a resource, as archives of the original may rely on. An error when there is
+    /// none either; resourceOf() then says no more.
+    /// @param ending of the name of the resource
+    SceneNode* nodeOf(const Attr<Target>& name, const std::string& ending = {}) const;
+
+    /// The resource that a name stands for which has no node. Null, reported, when there is none.
+    template <class T>
+    Ref<T> resourceOf(const Attr<Target>& name) const {
+        if (!name->node.empty() && !isResource(name->name)) return {};
+        return resource<T>(name->name, name.place);
+    }
 
     /// A resource by its name, which the frame needs from then on. Null, reported, when it can't be
     /// had.
@@ -52,7 +61,7 @@ public:
     T* field(const Attr<Target>& name) const {
         if (name->node.empty()) return resource<T>(name->name, name.place).get();
         SceneNode* const node = nodeOf(name);
-        if (!node) return resource<T>(name->name, name.place).get();
+        if (!node) return resourceOf<T>(name).get();
         T* const found = node->field<T>(name->name);
         const auto field = node->fields.find(name->name);
         const bool told = field != node->fields.end() && !field->second.get();
@@ -102,6 +111,7 @@ public:
     };
 
 private:
+    bool isResource(const std::string& name) const;
     void reportMissingOf(const Attr<Target>& name, const SceneNode& node, const std::string& what,
                          const std::vector<std::string>& has, const std::string& expected) const;
 

@@ -77,7 +77,7 @@ private:
 } // namespace
 
 Mesh* findMesh(const Attr<Target>& name, BindContext& context) {
-    SceneNode* const node = context.nodeOf(name);
+    SceneNode* const node = context.nodeOf(name, ".mesh");
     if (!node) return context.resource<Mesh>(name->name + ".mesh", name.place).get();
     const auto mesh = node->meshes.find(name->name);
     if (mesh != node->meshes.end()) return mesh->second.get();

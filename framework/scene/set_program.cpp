@@ -123,7 +123,7 @@ private:
 
 Ref<Module> findModule(const Attr<Target>& name, BindContext& context) {
     SceneNode* const node = context.nodeOf(name);
-    if (!node) return context.resource<Module>(name->name, name.place);
+    if (!node) return context.resourceOf<Module>(name);
     const auto module = node->modules.find(name->name);
     if (module != node->modules.end()) return module->second;
     context.reportMissing(name, *node, "module", node->modules);

@@ -189,7 +189,7 @@ bool findTexture(BoundBuffer& buffer, BindContext& context) {
     const Attr<Target>& name = buffer.name;
     SceneNode* const node = context.nodeOf(name);
     if (!node) {
-        buffer.texture = context.resource<Texture>(name->name, name.place);
+        buffer.texture = context.resourceOf<Texture>(name);
         return static_cast<bool>(buffer.texture);
     }
     const std::size_t colon = name->name.find(':');
