@@ -12,6 +12,7 @@
 #include "resource/manager.h"
 #include "resource/unused_resources.h"
 #include "scene/scene_manager.h"
+#include "scene/uncalled_methods.h"
 #include "scene/unmatched_flags.h"
 #include "scene/unmatched_values.h"
 #include "task/multithread_scheduler.h"
@@ -62,9 +63,10 @@ void Player::check(bool unused) {
     if (!open()) return;
     resources_->loadAll();
     setScene(false);
+    if (unused) reportUnusedResources(*resources_, roots());
+    checkUncalledMethods(*scene_);
     reportUnmatchedUniforms(*resources_); // of programs that the scene does not use, too
     reportUnmatchedValues(*scene_);
-    if (unused) reportUnusedResources(*resources_, roots());
 }
 
 bool Player::open() {

@@ -93,6 +93,7 @@ BindContext::Call::Call(BindContext& context, SceneNode& owner, const std::strin
     if (calls.size() >= kDeepestCall) return;
     if (std::find(calls.begin(), calls.end(), call) != calls.end()) return;
     calls.push_back(call);
+    context.scene_.calledMethods_.insert(call);
     context.owner_ = &owner;
     entered_ = true;
 }

@@ -70,6 +70,7 @@ SceneNode* SceneManager::camera() {
 void SceneManager::changed() {
     indexed_ = planned_ = false;
     askedFlags_.clear();
+    calledMethods_.clear();
     plan_.reset();
     graph_.clear();
     for (ResourceEntry* const entry : uses_.dependencies)

@@ -13,7 +13,9 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace terrane {
@@ -83,6 +85,10 @@ public:
     /// What methods asked for, and the camera's.
     const std::map<std::string, Place>& askedFlags() const { return askedFlags_; }
 
+    /// The methods that were bound, by node and id, until the scene changes.
+    using Method = std::pair<const SceneNode*, std::string>;
+    const std::set<Method>& calledMethods() const { return calledMethods_; }
+
     /// All flags that nodes have, for messages.
     std::vector<std::string> flags();
 
@@ -126,6 +132,7 @@ private:
 
     std::map<std::string, std::vector<SceneNode*>> nodesByFlag_;
     std::map<std::string, Place> askedFlags_;
+    std::set<Method> calledMethods_;
     bool indexed_ = false;
     SceneNode* camera_ = nullptr;
     bool planned_ = false;
