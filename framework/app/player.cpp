@@ -95,7 +95,7 @@ std::unique_ptr<Library> Player::readArchive() {
     auto library =
         std::make_unique<Library>(archiveSearchPath(*archive, options_.paths), diagnostics_);
     applySettings(*library);
-    return library->addArchive(*archive) ? std::move(library) : nullptr;
+    return library->addArchive(archive->path) ? std::move(library) : nullptr;
 }
 
 bool Player::openContext() {

@@ -2,8 +2,8 @@
 #include "app/player.h"
 
 #include "app/problem_overlay.h"
-#include "core/files.h"
 #include "core/text.h"
+#include "core/zip_file.h"
 #include "producer/tile_producer.h"
 #include "render/context.h"
 #include "render/render_target.h"
@@ -101,17 +101,20 @@ void Player::drawProblems() {
 std::vector<fs::path> Player::sourceFolders() const {
     std::set<fs::path> folders;
     std::error_code error;
+    FileTree files;
     const auto addParent = [&](const fs::path& file) {
-        if (file.empty()) return;
+        if (file.empty() || files.nameInZip(file)) return; // the zip itself is what may change
         folders.insert(fs::absolute(file, error).lexically_normal().parent_path());
         folders.insert(fs::weakly_canonical(file, error).parent_path()); // it may be a link
     };
     Diagnostics ignored;
     if (const auto archive = resolveArchive(options_.archive, ignored)) {
+        if (archive->files.zip()) addParent(archive->files.zip()->path());
+        files = archive->files;
         const SearchPath search = archiveSearchPath(*archive, options_.paths);
         for (const fs::path& folder : search.folders())
             addParent(folder / ".");
-        addFoldersBelow(archive->parent_path(), folders);
+        if (!files.zip()) addFoldersBelow(archive->path.parent_path(), folders);
     } else {
         addParent(options_.archive / "."); // of a folder, the folder itself
         addParent(options_.archive);
@@ -139,7 +142,7 @@ std::string Player::set(const std::string& resource, const std::string& attribut
                (near.empty() ? "" : "; did you mean '" + near + "'?");
     }
     const fs::path file = found->second->descriptor;
-    const auto text = readFile(file);
+    const auto text = resources_->library().searchPath().files().read(file);
     if (!text) return inQuotes(resource) + " is not described in a file";
     const std::vector<AttributeSetting> before = attributeSettings_;
     const AttributePlace place{resource, attribute};
@@ -158,7 +161,7 @@ void Player::applySettings(Library& library) {
     std::map<fs::path, std::string> texts;
     std::erase_if(attributeSettings_, [&](const AttributeSetting& setting) {
         auto [text, isNew] = texts.try_emplace(setting.file);
-        if (isNew) text->second = readFile(setting.file).value_or("");
+        if (isNew) text->second = library.searchPath().files().read(setting.file).value_or("");
         if (attributeValue(text->second, setting.place) != setting.original) return true;
         if (auto edited = withAttribute(text->second, setting.place, setting.value))
             text->second = std::move(*edited);

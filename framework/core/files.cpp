@@ -28,26 +28,6 @@ bool isFile(const fs::path& path) {
     return fs::is_regular_file(path, error);
 }
 
-// Walks down the name's parts, taking an entry of equal name where there is one, else the first (in
-// the order of their names) whose case differs.
-std::optional<fs::path> findIgnoringCase(fs::path folder, const fs::path& name) {
-    for (const fs::path& part : name) {
-        std::error_code error;
-        if (fs::exists(folder / part, error)) {
-            folder /= part;
-            continue;
-        }
-        fs::path found;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-            if (!equalIgnoringCase(entry.path().filename().string(), part.string())) continue;
-            if (found.empty() || entry.path() < found) found = entry.path();
-        }
-        if (found.empty()) return std::nullopt;
-        folder = found;
-    }
-    return isFile(folder) ? std::optional(folder) : std::nullopt;
-}
-
 std::string withSlashes(std::string_view name) {
     std::string result(name);
     std::replace(result.begin(), result.end(), '\\', '/');
@@ -143,6 +123,24 @@ bool SearchPath::leavesFolders(std::string_view name) {
     return path.is_absolute() || drive || std::find(path.begin(), path.end(), "..") != path.end();
 }
 
+// Walks down the name's parts, taking an entry of equal name where there is one, else the first (in
+// the order of their names) whose case differs.
+std::optional<fs::path> SearchPath::findIgnoringCase(fs::path folder, const fs::path& name) const {
+    for (const fs::path& part : name) {
+        if (files_.isFile(folder / part) || files_.isFolder(folder / part)) {
+            folder /= part;
+            continue;
+        }
+        const std::vector<std::string> names = files_.namesIn(folder);
+        const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& other) {
+            return equalIgnoringCase(other, part.string());
+        });
+        if (found == names.end()) return std::nullopt;
+        folder /= *found;
+    }
+    return files_.isFile(folder) ? std::optional(folder) : std::nullopt;
+}
+
 std::optional<SearchPath::Found> SearchPath::find(std::string_view name) const {
     const std::vector<Found> all = findAll(name);
     return all.empty() ? std::nullopt : std::optional(all.front());
@@ -154,7 +152,7 @@ std::vector<SearchPath::Found> SearchPath::findAll(std::string_view name) const 
         return all;
     const fs::path relative = withSlashes(name);
     for (const fs::path& folder : folders_) {
-        if (isFile(folder / relative)) all.push_back({folder / relative, false});
+        if (files_.isFile(folder / relative)) all.push_back({folder / relative, false});
     }
     if (!all.empty()) return all;
     for (const fs::path& folder : folders_) {
@@ -168,9 +166,8 @@ std::vector<std::string> SearchPath::namesNear(std::string_view name) const {
     if (leavesFolders(name)) return names;
     const fs::path within = fs::path(withSlashes(name)).parent_path();
     for (const fs::path& folder : folders_) {
-        std::error_code error;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder / within, error))
-            names.push_back((within / entry.path().filename()).string());
+        for (const std::string& entry : files_.namesIn(folder / within))
+            names.push_back((within / entry).string());
     }
     return names;
 }

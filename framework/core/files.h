@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/file_tree.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,15 +27,22 @@ std::string shownPath(const std::filesystem::path& path);
 /// folder. TERRANE_HOME overrides it. Empty when there is none.
 std::filesystem::path homeFolder();
 
-/// Where names of resources and data files are looked up: folders in order, never recursive.
-/// Immutable after its set-up, so any thread may search.
+/// Where names of resources and data files are looked up: folders in order, never recursive. They
+/// may be in a zip; what is found has to be read through files(). Immutable after its set-up, so
+/// any thread may search.
 class SearchPath {
 public:
+    SearchPath() = default; ///< of the disk
+    explicit SearchPath(FileTree files)
+        : files_(std::move(files)) {}
+
     struct Found {
         std::filesystem::path path;
         bool caseDiffers = false; ///< found only by ignoring the case of the name
     };
 
+    /// What the folders are in.
+    const FileTree& files() const { return files_; }
     void add(std::filesystem::path folder);
     const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
@@ -51,6 +60,10 @@ public:
     std::vector<std::string> namesNear(std::string_view name) const;
 
 private:
+    std::optional<std::filesystem::path> findIgnoringCase(std::filesystem::path folder,
+                                                          const std::filesystem::path& name) const;
+
+    FileTree files_;
     std::vector<std::filesystem::path> folders_;
 };
 

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace terrane {
 
-/// A regular file that is read in pieces: what is never asked for is never read, and what was asked
-/// for once stays in the system's cache. Any thread may read, several at a time.
+/// A regular file, a piece of one, or bytes in memory, read in pieces: what is never asked for is
+/// never read, and what was asked for once stays in the system's cache. Any thread may read,
+/// several at a time.
 ///
 /// Not mapped into memory on purpose: a mapped byte ends the program (SIGBUS) when somebody cuts
 /// the file short while it is looked at, and no check before the look can rule that out. Copying
@@ -21,9 +23,13 @@ class RandomAccessFile {
 public:
     /// Null when the file can't be read (missing, a directory, no permission).
     static std::unique_ptr<RandomAccessFile> open(const std::filesystem::path& path);
+    static std::unique_ptr<RandomAccessFile> ofBytes(std::string bytes);
     ~RandomAccessFile();
     RandomAccessFile(const RandomAccessFile&) = delete;
     RandomAccessFile& operator=(const RandomAccessFile&) = delete;
+
+    /// A piece of this one, which must have it, as a file of its own that may outlive this one.
+    std::unique_ptr<RandomAccessFile> part(std::uint64_t begin, std::uint64_t size) const;
 
     /// In bytes, when the file was opened.
     std::uint64_t size() const { return size_; }
@@ -33,11 +39,12 @@ public:
     bool read(std::uint64_t offset, std::span<std::byte> out) const;
 
 private:
-    RandomAccessFile(int descriptor, std::uint64_t size)
-        : descriptor_(descriptor)
-        , size_(size) {}
+    struct Bytes; ///< an open file, or memory
 
-    const int descriptor_;
+    RandomAccessFile(std::shared_ptr<const Bytes> bytes, std::uint64_t begin, std::uint64_t size);
+
+    const std::shared_ptr<const Bytes> bytes_;
+    const std::uint64_t begin_;
     const std::uint64_t size_;
 };
 

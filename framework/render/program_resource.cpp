@@ -23,10 +23,11 @@ struct ProgramElement : ElementDescription {};
 // `a;b;.bin` in the search folders: the driver's format, and what it made (ork reference 1.4).
 std::optional<ProgramBinary> findBinary(const ProgramElement& d, BuildContext& context) {
     const std::string file = (d.name.given ? *d.name : context.name()) + ".bin";
-    const auto found = context.manager().library().searchPath().find(file);
+    const SearchPath& search = context.manager().library().searchPath();
+    const auto found = search.find(file);
     if (!found) return std::nullopt;
     context.addFile(file, found->path);
-    const auto bytes = readFile(found->path);
+    const auto bytes = search.files().read(found->path);
     std::uint32_t format = 0;
     if (!bytes || bytes->size() <= sizeof format) {
         context.diagnostics().warning("program-binary", d.place,

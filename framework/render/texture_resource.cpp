@@ -143,14 +143,8 @@ void warnOverruled(const TextureElement& d, const Image& image, Diagnostics& dia
 }
 
 std::optional<Image> loadImage(const TextureElement& d, BuildContext& context) {
-    const auto path = context.findFile(d.source->name, d.source.place);
-    if (!path) return std::nullopt;
-    const auto bytes = readFile(*path);
-    if (!bytes) {
-        context.diagnostics().error("file-unreadable", d.source.place,
-                                    "can't read " + inQuotes(d.source->name));
-        return std::nullopt;
-    }
+    const auto bytes = context.readFile(d.source->name, d.source.place);
+    if (!bytes) return std::nullopt;
     return decodeImage(*bytes, d.source->name, context.diagnostics(), d.source.place);
 }
 

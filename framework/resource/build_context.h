@@ -14,6 +14,7 @@
 
 namespace terrane {
 
+class RandomAccessFile;
 class ResourceManager;
 class Registry;
 
@@ -83,7 +84,11 @@ public:
     /// Records a data file that was found otherwise, to be called before it is read.
     void addFile(const std::string& name, const std::filesystem::path& path,
                  FileStamp::Significant significant = nullptr) const;
-    /// The same, read as text that diagnostics can point into; null when missing.
+    /// Finds, records and reads a file; reports when it is missing or can't be read.
+    std::optional<std::string> readFile(const std::string& name, const Place& place) const;
+    /// The same, to be read in pieces; null when it can't be.
+    std::unique_ptr<RandomAccessFile> openFile(const std::string& name, const Place& place) const;
+    /// The same as readFile(), as text that diagnostics can point into; null when it can't be.
     std::shared_ptr<const SourceFile>
     readSource(const std::string& name, const Place& place,
                FileStamp::Significant significant = nullptr) const;
@@ -91,6 +96,9 @@ public:
 private:
     friend class ResourceManager;
 
+    const FileTree& files() const;
+    void reportUnreadable(const std::string& name, const Place& place,
+                          const std::string& problem) const;
     void loadReference(const RefBase& ref, std::type_index interface) const;
 
     ResourceManager& manager_;

@@ -20,6 +20,7 @@ struct UsedFile {
     std::string name;
     std::filesystem::path path; ///< empty: there was no such file, and the resource did without it
     FileStamp stamp;            ///< from before it was read
+    bool inPieces = false;      ///< what is never asked for is never read
 };
 
 /// What a resource is at the moment; a reload replaces all of it, or nothing.

@@ -2,6 +2,7 @@
 #include "resource/library.h"
 
 #include "core/text.h"
+#include "core/zip_file.h"
 #include "resource/prepared_data.h"
 
 #include <algorithm>
@@ -60,9 +61,12 @@ Library::Library(SearchPath searchPath, Diagnostics& diagnostics)
     , diagnostics_(diagnostics) {}
 
 bool Library::addArchive(const fs::path& file) {
-    const auto text = source(file);
+    std::string problem;
+    const auto text = source(file, &problem);
     if (text) return addArchive(file, text);
-    diagnostics_.error("file-missing", {}, "can't read the archive " + inQuotes(shownPath(file)));
+    diagnostics_.error("file-missing", {},
+                       "can't read the archive " + inQuotes(shownPath(file)) +
+                           (problem.empty() ? "" : ": " + problem));
     return false;
 }
 
@@ -129,9 +133,12 @@ std::optional<FoundElement> Library::findXmlFile(const std::string& name) {
 std::shared_ptr<const XmlDocument> Library::parsed(const fs::path& path) {
     const auto [document, isNew] = documents_.try_emplace(path);
     if (!isNew) return document->second;
-    const auto text = source(path);
+    std::string problem;
+    const auto text = source(path, &problem);
     if (!text) {
-        diagnostics_.error("file-unreadable", {}, "can't read " + inQuotes(shownPath(path)));
+        diagnostics_.error("file-unreadable", {},
+                           "can't read " + inQuotes(shownPath(path)) +
+                               (problem.empty() ? "" : ": " + problem));
         return nullptr;
     }
     return document->second = XmlDocument::parse(text, diagnostics_);
@@ -183,10 +190,10 @@ void Library::setText(const fs::path& path, std::string text) {
     sources_[path] = std::make_shared<SourceFile>(shownPath(path), std::move(text));
 }
 
-std::shared_ptr<const SourceFile> Library::source(const fs::path& path) {
+std::shared_ptr<const SourceFile> Library::source(const fs::path& path, std::string* problem) {
     auto& source = sources_[path];
     if (!source) {
-        if (auto text = readFile(path))
+        if (auto text = searchPath_.files().read(path, problem))
             source = std::make_shared<SourceFile>(shownPath(path), std::move(*text));
     }
     return source;
@@ -194,8 +201,8 @@ std::shared_ptr<const SourceFile> Library::source(const fs::path& path) {
 
 namespace {
 
-bool isArchive(const fs::path& file) {
-    const auto text = readFile(file);
+bool isArchive(const FileTree& files, const fs::path& file) {
+    const auto text = files.read(file);
     if (!text) return false;
     Diagnostics ignored;
     const auto source = std::make_shared<SourceFile>(file.string(), *text);
@@ -205,42 +212,94 @@ bool isArchive(const fs::path& file) {
     return document->root().tag() == "archive";
 }
 
-std::vector<fs::path> archivesIn(const fs::path& folder) {
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        if (entry.path().extension() == ".xml" && isArchive(entry.path()))
-            files.push_back(entry.path());
+std::vector<fs::path> archivesIn(const FileTree& files, const fs::path& folder) {
+    std::vector<fs::path> found;
+    for (const std::string& name : files.namesIn(folder)) {
+        const fs::path file = folder / name;
+        if (file.extension() == ".xml" && isArchive(files, file)) found.push_back(file);
     }
-    std::sort(files.begin(), files.end());
-    return files;
+    return found;
 }
 
-} // namespace
+bool isZip(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return extension == ".zip";
+}
 
-std::optional<fs::path> resolveArchive(const fs::path& path, Diagnostics& diagnostics) {
+// The zip that a path leads into; empty for others.
+fs::path zipAbove(fs::path path) {
     std::error_code error;
-    if (!fs::exists(path, error)) {
-        diagnostics.error("no-archive", {}, "there is no " + inQuotes(path.string()),
-                          "an .xml file or the folder of an archive");
-        return std::nullopt;
+    while (path.has_relative_path() && path.has_parent_path()) {
+        path = path.parent_path();
+        if (isZip(path) && fs::is_regular_file(path, error)) return path;
     }
-    if (!fs::is_directory(path, error)) return path;
-    const fs::path folder = fs::canonical(path, error);
+    return {};
+}
+
+// Whoever zips a folder gets a zip of that folder, and some systems add one of their own.
+fs::path topFolder(const FileTree& files, const fs::path& zip) {
+    std::vector<std::string> names = files.namesIn(zip);
+    std::erase(names, "__MACOSX");
+    const bool one = names.size() == 1 && files.isFolder(zip / names.front());
+    return one ? zip / names.front() : zip;
+}
+
+std::optional<ArchiveFile> archiveIn(const FileTree& files, const fs::path& folder,
+                                     Diagnostics& diagnostics) {
+    std::error_code error;
+    const bool zipped = files.nameInZip(folder).has_value();
+    const fs::path full = zipped ? folder : fs::canonical(folder, error);
     for (const std::string& name :
-         {std::string("archive"), folder.filename().string(), std::string("helloworld")}) {
-        const fs::path file = path / (name + ".xml");
-        if (fs::is_regular_file(file, error)) return file;
+         {std::string("archive"), zipped ? full.stem().string() : full.filename().string(),
+          std::string("helloworld")}) {
+        const fs::path file = folder / (name + ".xml");
+        if (files.isFile(file)) return ArchiveFile{file, files};
     }
-    const std::vector<fs::path> candidates = archivesIn(path);
-    if (candidates.size() == 1) return candidates.front();
+    const std::vector<fs::path> candidates = archivesIn(files, folder);
+    if (candidates.size() == 1) return ArchiveFile{candidates.front(), files};
     std::vector<std::string> names;
     for (const fs::path& candidate : candidates)
         names.push_back(shownPath(candidate));
     diagnostics.error("no-archive", {},
-                      "the folder " + inQuotes(path.string()) + " has " +
+                      (zipped ? "the zip " : "the folder ") + inQuotes(folder.string()) + " has " +
                           (names.empty() ? "no archive" : "several archives"),
                       names.empty() ? "archive.xml in it" : "one of " + listOfNames(names));
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<ArchiveFile> resolveArchive(std::shared_ptr<const ZipFile> zip,
+                                          Diagnostics& diagnostics) {
+    const fs::path path = zip->path();
+    const FileTree files(std::move(zip));
+    return archiveIn(files, topFolder(files, path), diagnostics);
+}
+
+std::optional<ArchiveFile> resolveArchive(const fs::path& path, Diagnostics& diagnostics) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return archiveIn({}, path, diagnostics);
+    const bool found = fs::exists(path, error);
+    if (found && !isZip(path)) return ArchiveFile{.path = path, .files = {}};
+    const fs::path above = found ? path : zipAbove(path);
+    if (above.empty()) {
+        diagnostics.error("no-archive", {}, "there is no " + inQuotes(path.string()),
+                          "an .xml file, a .zip, or the folder of an archive");
+        return std::nullopt;
+    }
+    const auto zip = ZipFile::open(above, diagnostics);
+    if (!zip) return std::nullopt;
+    if (found) return resolveArchive(zip, diagnostics);
+    const FileTree files(zip);
+    if (files.isFile(path)) return ArchiveFile{path, files};
+    if (files.isFolder(path)) return archiveIn(files, path, diagnostics);
+    diagnostics.report(
+        {.code = "no-archive",
+         .message = "there is no " + inQuotes(path.string()),
+         .expected = "a file of the zip",
+         .suggestion = nearestName(path.filename().string(), files.namesIn(path.parent_path()))});
     return std::nullopt;
 }
 
@@ -262,8 +321,13 @@ SearchPath builtInSearchPath() {
     return search;
 }
 
-SearchPath archiveSearchPath(const fs::path& archive, const std::vector<fs::path>& more) {
-    SearchPath search;
+SearchPath archiveSearchPath(const ArchiveFile& archive, const std::vector<fs::path>& more) {
+    return archiveSearchPath(archive.path, more, archive.files);
+}
+
+SearchPath archiveSearchPath(const fs::path& archive, const std::vector<fs::path>& more,
+                             FileTree files) {
+    SearchPath search(std::move(files));
     fs::path folder = archive.parent_path();
     if (folder.empty()) folder = ".";
     search.add(folder);

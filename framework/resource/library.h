@@ -63,8 +63,10 @@ public:
 
     /// What a file is to say instead of what it says; to be called before anybody reads it.
     void setText(const std::filesystem::path& path, std::string text);
-    /// A text file that diagnostics can point into; read once. Null when it can't be read.
-    std::shared_ptr<const SourceFile> source(const std::filesystem::path& path);
+    /// A text file that diagnostics can point into; read once. Null when it can't be read; the
+    /// reason is told where there is one beyond that.
+    std::shared_ptr<const SourceFile> source(const std::filesystem::path& path,
+                                             std::string* problem = nullptr);
     /// All that were read, by path.
     const std::map<std::filesystem::path, std::shared_ptr<const SourceFile>>& sources() const {
         return sources_;
@@ -95,15 +97,30 @@ private:
     std::set<std::string> damaged_;
 };
 
+/// The XML file of an archive, and what it is in.
+struct ArchiveFile {
+    std::filesystem::path path;
+    FileTree files;
+};
+
 /// The archive that a path given by a user stands for: an .xml file itself; of a folder,
-/// archive.xml, else <folder>.xml, helloworld.xml, or the only .xml whose root is <archive>.
-/// Nothing, with a diagnostic ("no-archive") that lists the candidates, otherwise.
-std::optional<std::filesystem::path> resolveArchive(const std::filesystem::path& path,
-                                                    Diagnostics& diagnostics);
+/// archive.xml, else <folder>.xml, helloworld.xml, or the only .xml whose root is <archive>. A zip
+/// is a folder, or stands for the only folder that it has; a path may lead on into it. Nothing,
+/// with a diagnostic ("no-archive" that lists the candidates, or why ZipFile refuses the zip),
+/// otherwise.
+std::optional<ArchiveFile> resolveArchive(const std::filesystem::path& path,
+                                          Diagnostics& diagnostics);
+
+/// The same of a zip that is open already.
+std::optional<ArchiveFile> resolveArchive(std::shared_ptr<const ZipFile> zip,
+                                          Diagnostics& diagnostics);
 
 /// The folders in which an archive's names are looked up: its own, then `more` in order, then the
 /// original's neighbour folders that exist, then Terrane's own resources.
+/// @param files what the archive is in
 SearchPath archiveSearchPath(const std::filesystem::path& archive,
+                             const std::vector<std::filesystem::path>& more, FileTree files = {});
+SearchPath archiveSearchPath(const ArchiveFile& archive,
                              const std::vector<std::filesystem::path>& more);
 
 /// The folders of Terrane's own resources.

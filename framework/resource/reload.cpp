@@ -55,7 +55,8 @@ bool Reload::isChanged(const UsedFile& file) {
     if (isNew) {
         // The name may lead to another file than before.
         const auto found = fresh_.searchPath().find(file.name);
-        known->second = !found || found->path != file.path || file.stamp.differs(file.path);
+        known->second = !found || found->path != file.path ||
+                        file.stamp.differs(file.path, fresh_.searchPath().files());
     }
     return known->second;
 }

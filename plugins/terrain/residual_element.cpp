@@ -45,14 +45,8 @@ void parse(const ResidualDescription& d, std::shared_ptr<const RandomAccessFile>
 
 bool open(const ResidualDescription& d, BuildContext& context,
           ResidualPyramid::Parameters& parameters) {
-    const auto path = context.findFile(d.file->name, d.file.place);
-    if (!path) return false;
-    auto file = RandomAccessFile::open(*path);
-    if (!file) {
-        context.diagnostics().error("file-unreadable", d.file.place,
-                                    "can't read '" + d.file->name + "'");
-        return false;
-    }
+    auto file = context.openFile(d.file->name, d.file.place);
+    if (!file) return false;
     parse(d, std::move(file), parameters, context.diagnostics());
     return true;
 }
