@@ -10,6 +10,7 @@
 #include "resource/registry.h"
 #include "tools/terrane/allocation_counter.h"
 #include "tools/terrane/new_archive.h"
+#include "tools/terrane/pack_command.h"
 #include "tools/terrane/schema_command.h"
 
 #include <CLI/CLI.hpp>
@@ -35,6 +36,7 @@ constexpr const char* kExamples = R"(Examples:
   terrane play archives/mountains --headless --screenshot mountains.png
   terrane play archives/mountains --headless --frames 300 --script flight.txt --metrics m.json
   terrane check archives/mountains
+  terrane pack archives/mountains mountains.zip
   terrane test tests/fixtures archives
 
 'terrane play --help' tells the options of a subcommand.
@@ -63,7 +65,8 @@ struct Arguments {
     bool realTime = false, json = false, strict = false, unused = false, update = false;
     int samples = 1;
     std::string name, junit;
-    std::string format = "xsd", output; ///< of the schema
+    std::string format = "xsd"; ///< of the schema
+    std::string output;         ///< of the schema, or the zip
 };
 
 /// A range that does not fill the help with itself.
@@ -110,7 +113,8 @@ void addCommon(CLI::App& command, Arguments& a) {
 void addPlay(CLI::App& app, Arguments& a) {
     CLI::App* play = app.add_subcommand("play", "Open an archive: draw what it describes");
     play->footer(playFooter());
-    play->add_option("archive", a.archive, "An .xml file, or the folder of an archive")->required();
+    play->add_option("archive", a.archive, "An .xml file, a .zip, or the folder of an archive")
+        ->required();
     play->add_flag("--headless{any}", a.headless,
                    "Draw without a window or a display; =osmesa or =egl says how")
         ->check(CLI::IsMember({"osmesa", "egl", "any"}).description(""));
@@ -156,7 +160,8 @@ void addPlay(CLI::App& app, Arguments& a) {
 
 void addOthers(CLI::App& app, Arguments& a) {
     CLI::App* check = app.add_subcommand("check", "Load and validate everything, draw nothing");
-    check->add_option("archive", a.archives, "Archives")->required();
+    check->add_option("archive", a.archives, "Archives: .xml files, .zip files, or folders")
+        ->required();
     check->add_flag("--json", a.json, "Tell the problems as JSON");
     check->add_flag("--strict", a.strict, "Warnings are failures, too");
     check->add_flag("--unused", a.unused, "Warn of entries that nothing which is played uses");
@@ -184,7 +189,12 @@ void addOthers(CLI::App& app, Arguments& a) {
                      "Where to write it: a file, or a folder for md [standard output]")
         ->type_name("PATH");
     addCommon(*schema, a);
-    app.add_subcommand("pack", "Pack an archive into one file (not built yet)")->allow_extras();
+    CLI::App* pack = app.add_subcommand("pack", "Pack an archive into one file that plays");
+    pack->add_option("archive", a.archive, "An .xml file, a .zip, or the folder of an archive")
+        ->required();
+    pack->add_option("output", a.output, "The .zip to write")->type_name("OUT.zip")->required();
+    pack->footer(kPackFooter);
+    addCommon(*pack, a);
 }
 
 int fail(int status, const std::string& message) {
@@ -261,7 +271,6 @@ int test(const Registry& registry, const Arguments& a) {
 
 int dispatch(const CLI::App& app, Arguments& a) {
     if (!a.plugin.empty()) return fail(kWrongUsage, "--plugin is not built yet");
-    if (app.got_subcommand("pack")) return fail(kWrongUsage, "'pack' is not built yet");
     Registry registry;
     registerStandardTypes(registry);
     registerStandardPlugins(registry);
@@ -270,6 +279,9 @@ int dispatch(const CLI::App& app, Arguments& a) {
     if (app.got_subcommand("check")) return check(registry, a);
     if (app.got_subcommand("schema"))
         return writeSchema(registry, a.format, a.output, std::cout, std::cerr);
+    if (app.got_subcommand("pack"))
+        return packCommand(registry, a.archive, toPaths(a.paths), a.output,
+                           a.run.logLevel <= LogLevel::info, std::cout, std::cerr);
     return test(registry, a);
 }
 

@@ -48,7 +48,8 @@ TEST_CASE_FIXTURE(Terrane, "wrong usage exits with 2 and says why") {
         {"play % --headless --samples 4", "not built yet"},
         {"check", "archive is required"},
         {"schema --format yaml", "--format"},
-        {"pack % out.zip", "not built yet"},
+        {"pack %", "output is required"},
+        {"pack % out.tar", "is to end with .zip"},
     };
     for (const Row& row : rows) {
         CAPTURE(row.words);
