@@ -9,6 +9,7 @@
 #include "core/zip_writer.h"
 #include "resource/library.h"
 #include "resource/manager.h"
+#include "resource/prepared_data.h"
 
 #include <algorithm>
 #include <iterator>
@@ -71,6 +72,8 @@ private:
             for (const UsedFile& used : entry->files)
                 add(used.name, used.path, used.inPieces);
         }
+        for (const auto& [name, path] : player_.resources()->filesNotRead())
+            add(name, path, false);
         result_.builtIn = builtIn_.size();
         if (!namesDiffer()) return;
         fs::path beside = output;
@@ -82,7 +85,16 @@ private:
         result_.size = 0;
     }
 
+    /// Of data that is not prepared, the script that makes it comes along: it tells that the data
+    /// is not missing.
+    void addScript(const std::string& name) {
+        const SearchPath& search = player_.resources()->library().searchPath();
+        const auto script = preparingScript(search, name);
+        if (script) add(script->filename().string(), *script, false);
+    }
+
     void add(const std::string& name, const fs::path& path, bool inPieces) {
+        if (path.empty()) return addScript(name);
         if (isBuiltIn(path)) {
             builtIn_.insert(path);
             return;
@@ -90,6 +102,8 @@ private:
         const std::string packed = nameOf(path, name);
         const auto [content, isNew] = contents_.try_emplace(packed, ZipContent{packed, path});
         content->second.stored |= inPieces || isPacked(path);
+        if (!isNew && content->second.path != path)
+            collide(path, content->second.path, "have one name");
         if (!isNew) return;
         const auto file = files_.open(path);
         const std::uint64_t size = file ? file->size() : 0;
@@ -108,7 +122,6 @@ private:
         std::sort(result_.files.begin(), result_.files.end(),
                   [](const auto& a, const auto& b) { return a.name < b.name; });
         std::map<std::string, const PackedFile*> known;
-        bool good = true;
         for (const PackedFile& file : result_.files) {
             std::string lower = file.name;
             std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
@@ -116,15 +129,18 @@ private:
             });
             const auto [first, isNew] = known.try_emplace(lower, &file);
             if (isNew) continue;
-            good = false;
-            diagnostics().error("pack-collision", {},
-                                inQuotes(shownPath(file.path)) + " and " +
-                                    inQuotes(shownPath(first->second->path)) +
-                                    " differ in their case alone, which some systems ignore",
-                                "another name for one of them");
+            collide(file.path, first->second->path,
+                    "differ in their case alone, which some systems ignore,");
         }
-        if (!good) result_.files.clear();
-        return good;
+        if (diagnostics().errors() > 0) result_.files.clear();
+        return diagnostics().errors() == 0;
+    }
+
+    void collide(const fs::path& a, const fs::path& b, const std::string& how) {
+        diagnostics().error("pack-collision", {},
+                            inQuotes(shownPath(a)) + " and " + inQuotes(shownPath(b)) + ' ' + how +
+                                " in the zip",
+                            "another name for one of them");
     }
 
     /// Nobody sees the zip before it has been opened as a player does.

@@ -26,7 +26,7 @@ struct PackResult {
     std::uint64_t size = 0;  ///< of the zip, bytes; 0: nothing was written
 };
 
-/// Packs an archive with all that its entries reach, used or not, into one zip that plays as the
+/// Packs an archive with all that its entries name, used or not, into one zip that plays as the
 /// archive does: XML files that names lead to, shaders with their includes, textures, meshes,
 /// data, and binaries of programs. What was found in other search folders goes next to the archive,
 /// under the name that led there, which finds it as before. What is read in pieces, such as
@@ -34,7 +34,8 @@ struct PackResult {
 ///
 /// Writes nothing, with a diagnostic, when the archive has errors, when names differ in their case
 /// alone ("pack-collision"), when the zip would play another archive ("pack-ambiguous"), and when
-/// it can't be written ("pack-failed"). The same files make the same bytes.
+/// it can't be written ("pack-failed"). Data that is not prepared yet is left out; the script that
+/// makes it comes along. The same files make the same bytes.
 PackResult packArchive(const Registry& registry, const std::filesystem::path& archive,
                        const std::vector<std::filesystem::path>& paths,
                        const std::filesystem::path& output);

@@ -213,7 +213,8 @@ void ResourceManager::describeAndBuild(ResourceEntry& entry, const FoundElement&
 void ResourceManager::findFiles(const std::vector<AttributeText>& files) {
     Diagnostics local;
     for (const AttributeText& file : files)
-        library_->findFile(file.text, file.valuePlace, local);
+        filesNotRead_[file.text] =
+            library_->findFile(file.text, file.valuePlace, local).value_or("");
     forward(local);
 }
 

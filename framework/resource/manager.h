@@ -61,6 +61,12 @@ public:
         return entries_;
     }
 
+    /// Files that elements name that could not be built, or that nothing uses: by their names,
+    /// where they were found; empty paths where they were not.
+    const std::map<std::string, std::filesystem::path>& filesNotRead() const {
+        return filesNotRead_;
+    }
+
 private:
     friend class Reload;
 
@@ -92,6 +98,7 @@ private:
     Diagnostics& diagnostics_;
     Services services_;
     std::map<std::string, std::unique_ptr<ResourceEntry>> entries_;
+    std::map<std::string, std::filesystem::path> filesNotRead_;
     std::uint64_t built_ = 0;            ///< so many instances were made
     Transaction* transaction_ = nullptr; ///< of the reload that is under way
     /// A search for the nearest name looks at every entry; an archive with more wrong names than

@@ -45,7 +45,7 @@ bool makes(std::string_view script, std::string_view name) {
 
 std::optional<fs::path> preparingScript(const SearchPath& searchPath, const std::string& name) {
     for (const fs::path& folder : searchPath.folders()) {
-        const auto script = readFile(folder / "prepare");
+        const auto script = searchPath.files().read(folder / "prepare");
         if (script && makes(*script, name)) return folder / "prepare";
     }
     return std::nullopt;

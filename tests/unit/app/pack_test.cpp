@@ -60,6 +60,8 @@ Image pictureOf(const fs::path& archive) {
 
 constexpr const char* kShader = "#ifdef _FRAGMENT_\nvoid main() {}\n#endif\n";
 
+constexpr const char* kMesh = "0 1 0 1 0 0 points 1 0 3 float false\n1 0 0 0\n0\n";
+
 using Names = std::vector<std::string>;
 
 } // namespace
@@ -119,12 +121,11 @@ TEST_CASE("What is found in other folders goes next to the archive") {
         <program name="p"><module name="five"/></program>
         <program name="q"><module name="six"/></program>
     </archive>)");
-    const char* const mesh = "0 1 0 1 0 0 points 1 0 3 float false\n1 0 0 0\n0\n";
-    folder.file("scenes/a/one.mesh", mesh);
-    folder.file("more/deep/two.mesh", mesh);
+    folder.file("scenes/a/one.mesh", kMesh);
+    folder.file("more/deep/two.mesh", kMesh);
     folder.file("more/one.mesh", "shadowed");
-    folder.file("scenes/meshes/three.mesh", mesh);
-    folder.file("scenes/meshes/deep/Four.mesh", mesh);
+    folder.file("scenes/meshes/three.mesh", kMesh);
+    folder.file("scenes/meshes/deep/Four.mesh", kMesh);
     folder.file("scenes/meshes/five.xml", R"(<module version="330" source="m.glsl"/>)");
     folder.file("scenes/methods/Six.xml", R"(<module version="330" source="m.glsl"/>)");
     folder.file("scenes/shaders/m.glsl", kShader);
@@ -136,7 +137,7 @@ TEST_CASE("What is found in other folders goes next to the archive") {
           "case-differs case-differs");
 
     SUBCASE("names that differ in their case alone are refused") {
-        folder.file("scenes/meshes/ONE.mesh", mesh);
+        folder.file("scenes/meshes/ONE.mesh", kMesh);
         folder.file("scenes/a/archive.xml", R"(<archive>
             <mesh name="a" source="one.mesh"/><mesh name="b" source="ONE.mesh"/></archive>)");
         const PackResult bad = pack(folder / "scenes/a", folder / "b.zip");
@@ -144,6 +145,28 @@ TEST_CASE("What is found in other folders goes next to the archive") {
         CHECK(bad.size == 0);
         CHECK_FALSE(fs::exists(folder / "b.zip"));
     }
+}
+
+TEST_CASE("Data that is not prepared is left out, and told so in the zip, too") {
+    test::TemporaryFolder folder;
+    folder.file("a/archive.xml", R"(<archive>
+        <mesh name="big" source="big.mesh"/>
+        <mesh name="twice" source="one.mesh"/>
+        <mesh name="twice" source="unused.mesh"/>
+    </archive>)");
+    folder.file("a/prepare", "#!/bin/sh\n# makes: big.mesh\n");
+    folder.file("a/one.mesh", kMesh);
+    folder.file("a/unused.mesh", kMesh);
+    const PackResult result = pack(folder / "a", folder / "a.zip");
+    CHECK(codes(result.diagnostics) == "data-not-prepared duplicate-name");
+    CHECK(names(result) == "archive.xml one.mesh prepare unused.mesh");
+    const auto found = checkArchive(standardRegistry(), folder / "a.zip", {});
+    CHECK(codes(found) == "data-not-prepared duplicate-name");
+    CHECK(checkArchive(standardRegistry(), folder / "a", {}).size() == found.size());
+    // Laid into a folder that names are looked up in, it is found.
+    folder.file("more/big.mesh", kMesh);
+    CHECK(codes(checkArchive(standardRegistry(), folder / "a.zip", {folder / "more"})) ==
+          "duplicate-name");
 }
 
 TEST_CASE("What can't be packed is told, and nothing is written") {
