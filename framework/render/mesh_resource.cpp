@@ -6,6 +6,7 @@
 #include "render/mesh_file.h"
 #include "resource/build_context.h"
 #include "resource/manager.h"
+#include "resource/prepared_data.h"
 #include "resource/registry.h"
 
 #include <algorithm>
@@ -44,8 +45,11 @@ std::optional<MeshData> load(const MeshElement& d, BuildContext& context) {
     const std::string& name = d.source->name;
     const SearchPath& path = context.manager().library().searchPath();
     if (!path.find(name)) {
-        if (auto mesh = builtInMesh(name)) return mesh;
-        if (!SearchPath::leavesFolders(name)) {
+        if (auto mesh = builtInMesh(name)) {
+            context.addMissingFile(name);
+            return mesh;
+        }
+        if (!SearchPath::leavesFolders(name) && !preparingScript(path, name)) {
             reportMissing(name, d.source.place, path, context.diagnostics());
             return std::nullopt;
         }

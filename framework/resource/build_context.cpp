@@ -15,8 +15,13 @@ BuildContext::findFile(const std::string& name, const Place& place,
     if (path)
         addFile(name, *path, significant);
     else
-        entry_.files.push_back({name, {}, {}}); // it may come to be
+        addMissingFile(name);
     return path;
+}
+
+void BuildContext::addMissingFile(const std::string& name) const {
+    ++uses_;
+    entry_.files.push_back({name, {}, {}});
 }
 
 void BuildContext::addFile(const std::string& name, const std::filesystem::path& path,

@@ -81,6 +81,8 @@ public:
     std::optional<std::filesystem::path>
     findFile(const std::string& name, const Place& place,
              FileStamp::Significant significant = nullptr) const;
+    /// Records that there is no file of a name: as soon as there is one, the resource is made anew.
+    void addMissingFile(const std::string& name) const;
     /// Records a data file that was found otherwise, to be called before it is read.
     void addFile(const std::string& name, const std::filesystem::path& path,
                  FileStamp::Significant significant = nullptr) const;
