@@ -2,97 +2,18 @@
 #include "app/script.h"
 
 #include "app/options.h"
+#include "app/script_words.h"
 #include "core/text.h"
 
-#include <cmath>
 #include <utility>
 
 namespace terrane {
 
 namespace {
 
-/// The words of a line, taken one after the other.
-class Words {
-public:
-    explicit Words(std::vector<std::string> words)
-        : words_(std::move(words)) {}
-
-    bool empty() const { return next_ == words_.size(); }
-    std::optional<std::string> word() {
-        if (empty()) return std::nullopt;
-        return words_[next_++];
-    }
-    bool literal(std::string_view text) {
-        if (empty() || words_[next_] != text) return false;
-        ++next_;
-        return true;
-    }
-    std::optional<double> real() {
-        const auto text = word();
-        if (!text) return std::nullopt;
-        const auto number = parseReal(*text);
-        if (!number || number->length != text->size() || !std::isfinite(number->value))
-            return std::nullopt;
-        return number->value;
-    }
-    std::optional<int> count() {
-        const auto text = word();
-        if (!text) return std::nullopt;
-        const auto number = parseInt(*text);
-        if (!number || number->length != text->size() || number->value < 0) return std::nullopt;
-        return number->value;
-    }
-    std::optional<View> view() {
-        const auto text = word();
-        return text ? parseView(*text) : std::nullopt;
-    }
-    std::optional<Comparison> comparison() {
-        static constexpr std::pair<std::string_view, Comparison> kWords[] = {
-            {"==", Comparison::equal},         {"=", Comparison::equal},
-            {"!=", Comparison::notEqual},      {"<", Comparison::less},
-            {"<=", Comparison::lessOrEqual},   {">", Comparison::greater},
-            {">=", Comparison::greaterOrEqual}};
-        for (const auto& [text, comparison] : kWords) {
-            if (literal(text)) return comparison;
-        }
-        return std::nullopt;
-    }
-    void rest() { next_ = words_.size(); }
-
-private:
-    std::vector<std::string> words_;
-    std::size_t next_ = 0;
-};
-
-bool isSpace(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-/// Nothing when a quote is not closed.
-std::optional<std::vector<std::string>> wordsOf(std::string_view text) {
-    std::vector<std::string> words;
-    std::size_t i = 0;
-    while (true) {
-        while (i < text.size() && isSpace(text[i]))
-            ++i;
-        if (i == text.size()) return words;
-        std::string word;
-        if (text[i] == '"') {
-            const std::size_t end = text.find('"', i + 1);
-            if (end == std::string_view::npos) return std::nullopt;
-            word = text.substr(i + 1, end - i - 1);
-            i = end + 1;
-        } else {
-            while (i < text.size() && !isSpace(text[i]))
-                word += text[i++];
-        }
-        words.push_back(std::move(word));
-    }
-}
-
 using Parsed = std::optional<ScriptCommand>;
 
-Parsed parseCamera(Words& words) {
+Parsed parseCamera(ScriptWords& words) {
     const auto from = words.view();
     if (!from) return std::nullopt;
     CameraCommand command{*from, std::nullopt, 0};
@@ -106,13 +27,13 @@ Parsed parseCamera(Words& words) {
     return command;
 }
 
-Parsed parseFrames(Words& words) {
+Parsed parseFrames(ScriptWords& words) {
     const auto count = words.count();
     if (!count) return std::nullopt;
     return FramesCommand{*count};
 }
 
-Parsed parseWait(Words& words) {
+Parsed parseWait(ScriptWords& words) {
     if (!words.literal("tiles")) return std::nullopt;
     if (words.empty()) return WaitCommand{kMostFrames};
     const auto frames = words.count();
@@ -121,18 +42,18 @@ Parsed parseWait(Words& words) {
 }
 
 template <class Command>
-Parsed parseName(Words& words) {
+Parsed parseName(ScriptWords& words) {
     const auto name = words.word();
     if (!name) return std::nullopt;
     return Command{*name};
 }
 
 template <class Command>
-Parsed parseNothing(Words&) {
+Parsed parseNothing(ScriptWords&) {
     return Command{};
 }
 
-Parsed parseTiles(Words& words) {
+Parsed parseTiles(ScriptWords& words) {
     const auto producer = words.word();
     const auto comparison = words.comparison();
     const auto count = words.real();
@@ -140,13 +61,13 @@ Parsed parseTiles(Words& words) {
     return ExpectTilesCommand{*producer, *comparison, *count};
 }
 
-Parsed parseHeight(Words& words) {
+Parsed parseHeight(ScriptWords& words) {
     const auto x = words.real(), y = words.real(), z = words.real(), tolerance = words.real();
     if (!x || !y || !z || !tolerance) return std::nullopt;
     return ExpectHeightCommand{*x, *y, *z, *tolerance};
 }
 
-Parsed parseImage(Words& words) {
+Parsed parseImage(ScriptWords& words) {
     const auto file = words.word();
     if (!file) return std::nullopt;
     ExpectImageCommand command{*file, std::nullopt};
@@ -159,13 +80,13 @@ Parsed parseImage(Words& words) {
     return command;
 }
 
-Parsed parseDiagnostic(Words& words) {
+Parsed parseDiagnostic(ScriptWords& words) {
     const auto code = words.word(), place = words.word();
     if (!code || !place) return std::nullopt;
     return ExpectDiagnosticCommand{*code, *place};
 }
 
-Parsed parseMetric(Words& words) {
+Parsed parseMetric(ScriptWords& words) {
     const auto pointer = words.word();
     const auto comparison = words.comparison();
     const auto value = words.real();
@@ -176,7 +97,7 @@ Parsed parseMetric(Words& words) {
 }
 
 // The resource may have dots in its name, attributes don't.
-Parsed parseSet(Words& words) {
+Parsed parseSet(ScriptWords& words) {
     const auto target = words.word(), value = words.word();
     if (!target || !value) return std::nullopt;
     const std::size_t dot = target->rfind('.');
@@ -185,7 +106,7 @@ Parsed parseSet(Words& words) {
 }
 
 /// "down", "up", or nothing for both, one after the other.
-std::optional<std::vector<bool>> parseStates(Words& words) {
+std::optional<std::vector<bool>> parseStates(ScriptWords& words) {
     if (words.empty()) return std::vector{true, false};
     if (words.literal("down")) return std::vector{true};
     if (words.literal("up")) return std::vector{false};
@@ -231,7 +152,7 @@ InputCommand typed(std::string_view text) {
     return command;
 }
 
-Parsed parseKey(Words& words) {
+Parsed parseKey(ScriptWords& words) {
     static constexpr std::pair<std::string_view, bool Modifiers::*> kModifiers[] = {
         {"shift", &Modifiers::shift}, {"control", &Modifiers::control}, {"alt", &Modifiers::alt}};
     const auto name = words.word();
@@ -249,7 +170,7 @@ Parsed parseKey(Words& words) {
     return command;
 }
 
-Parsed parseMouse(Words& words) {
+Parsed parseMouse(ScriptWords& words) {
     if (words.literal("move")) {
         const auto x = words.real(), y = words.real();
         if (!x || !y) return std::nullopt;
@@ -267,13 +188,13 @@ Parsed parseMouse(Words& words) {
     return std::nullopt;
 }
 
-Parsed parseWheel(Words& words) {
+Parsed parseWheel(ScriptWords& words) {
     const auto steps = words.real();
     if (!steps) return std::nullopt;
     return InputCommand{{WheelEvent{*steps, {}}}};
 }
 
-Parsed parseText(Words& words) {
+Parsed parseText(ScriptWords& words) {
     auto text = words.word();
     if (!text) return std::nullopt;
     while (!words.empty())
@@ -284,7 +205,7 @@ Parsed parseText(Words& words) {
 struct Rule {
     std::string_view name;
     std::string_view usage;
-    Parsed (*parse)(Words&);
+    Parsed (*parse)(ScriptWords&);
 };
 
 constexpr Rule kExpectations[] = {
@@ -336,14 +257,14 @@ std::string unknown(const std::string& what, const std::string& name,
            (near.empty() ? "expected " + listOfNames(names) : "did you mean '" + near + "'?");
 }
 
-void apply(const Rule& rule, Words& words, ScriptLine& line) {
+void apply(const Rule& rule, ScriptWords& words, ScriptLine& line) {
     line.command = rule.parse(words);
     if (line.command && words.empty()) return;
     line.command.reset();
     line.problem = "expected: " + std::string(rule.usage);
 }
 
-void parseExpect(Words& words, ScriptLine& line) {
+void parseExpect(ScriptWords& words, ScriptLine& line) {
     std::vector<std::string> names;
     addNames(kExpectations, names);
     const auto what = words.word();
@@ -384,7 +305,7 @@ std::optional<ScriptLine> parseScriptLine(std::string_view text, int number) {
         return line;
     }
     if (all->empty() || all->front().starts_with('#')) return std::nullopt;
-    Words words(*all);
+    ScriptWords words(*all);
     const std::string name = *words.word();
     if (name == "expect") {
         parseExpect(words, line);

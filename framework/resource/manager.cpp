@@ -17,11 +17,6 @@ namespace {
 // A broken archive can chain as many names as it likes; the stack can't.
 constexpr std::size_t kMaxChain = 500;
 
-std::string describe(const ResourceEntry& entry) {
-    const std::string tag = entry.declaration ? entry.declaration->tag : "resource";
-    return tag + " " + inQuotes(entry.name);
-}
-
 // The modules of a program "a;b;" are blamed on their pieces of the name.
 void blamePieces(ElementDescription& description, const ElementDeclaration& declaration,
                  const std::string& name, const Place& place) {
@@ -152,23 +147,6 @@ ResourceEntry& ResourceManager::add(const std::string& name) {
     return *known->second;
 }
 
-void ResourceManager::warnName(const std::string& name, const FoundElement& found,
-                               const Place& place) {
-    if (found.caseDiffers) {
-        diagnostics_.warning("case-differs", place ? place : found.element.place(),
-                             inQuotes(name + ".xml") + " is found only as " +
-                                 inQuotes(found.file.filename().string()),
-                             "the same case, which other systems need");
-    }
-    const std::size_t end = name.rfind(';');
-    if (found.synthesised && end != std::string::npos && end + 1 < name.size()) {
-        diagnostics_.warning("program-tail", place,
-                             inQuotes(name.substr(end + 1)) +
-                                 " has no ';' behind it and is ignored",
-                             inQuotes(name + ";"));
-    }
-}
-
 const ElementDeclaration* ResourceManager::declarationOf(const XmlElement& element) {
     const std::string tag = element.tag();
     if (const ElementDeclaration* declaration = registry_.find(tag)) return declaration;
@@ -252,7 +230,7 @@ void ResourceManager::build(ResourceEntry& entry, Diagnostics& local) {
             entry.instance = entry.declaration->build(*entry.description, context);
     } catch (const std::bad_alloc&) {
         local.error("out-of-memory", entry.description->place,
-                    "there is not enough memory for " + describe(entry));
+                    "there is not enough memory for " + described(entry));
     }
     entry.state = entry.instance ? ResourceEntry::State::ready : ResourceEntry::State::failed;
     if (!entry.instance && lacksOnlyData(local)) entry.state = ResourceEntry::State::planned;
@@ -344,90 +322,6 @@ void ResourceManager::checkUnused(const XmlElement& element) {
                              "an attribute 'name'");
     }
     findFiles(parseElement(element, *declaration, registry_, diagnostics_).files);
-}
-
-void ResourceManager::reportUnknown(const std::string& name, const Place& place) {
-    if (SearchPath::leavesFolders(name)) {
-        diagnostics_.report({.code = "name-leaves-folders",
-                             .place = place,
-                             .message = inQuotes(name) + " leaves the search folders",
-                             .expected = "a name without '..' that does not start with '/'",
-                             .chain = chain()});
-        return;
-    }
-    const bool buffer = name.starts_with("renderbuffer");
-    diagnostics_.report(
-        {.code = "unknown-resource",
-         .place = place,
-         .message = "there is no resource " + inQuotes(name),
-         .expected = buffer ? "renderbuffer-<size>-<internal format>"
-                            : "an entry of the archive, or a file " + inQuotes(name + ".xml"),
-         .suggestion = suggestName(name),
-         .chain = chain()});
-}
-
-void ResourceManager::reportCycle(const ResourceEntry& entry, const Place& place) {
-    std::string circle;
-    bool inside = false;
-    for (const Loading& loading : loading_) {
-        inside |= loading.entry == &entry;
-        if (inside) circle += loading.entry->name + " > ";
-    }
-    diagnostics_.report({.code = "cycle",
-                         .place = place,
-                         .message = describe(entry) + " needs itself: " + circle + entry.name,
-                         .chain = chain()});
-}
-
-void ResourceManager::reportMistyped(const RefBase& ref, const ResourceEntry& entry,
-                                     std::type_index interface) {
-    diagnostics_.report(
-        {.code = "mistyped-reference",
-         .place = ref.place,
-         .message = inQuotes(ref.name) + " is " + withArticle(entry.declaration->tag),
-         .expected = registry_.describeInterface(interface),
-         .suggestion = suggestEntry(ref.name, interface),
-         .chain = chain()});
-}
-
-// An entry, or else a file.
-std::string ResourceManager::suggestName(const std::string& name) {
-    if (suggestionsLeft_-- <= 0) return {};
-    std::string nearest = nearestName(name, library_->names());
-    if (!nearest.empty()) return nearest;
-    std::vector<std::string> files;
-    for (const std::string& file : library_->searchPath().namesNear(name)) {
-        if (file.ends_with(".xml")) files.push_back(file.substr(0, file.size() - 4));
-    }
-    return nearestName(name, files);
-}
-
-// An entry that has the interface.
-std::string ResourceManager::suggestEntry(const std::string& name, std::type_index interface) {
-    if (suggestionsLeft_-- <= 0) return {};
-    std::vector<std::string> names;
-    for (const XmlElement& element : library_->entries()) {
-        const ElementDeclaration* const declaration = registry_.find(element.tag());
-        if (declaration && declaration->isA(interface)) names.push_back(element.attribute("name"));
-    }
-    return nearestName(name, names);
-}
-
-std::vector<std::string> ResourceManager::chain() const {
-    std::vector<std::string> links;
-    for (auto loading = loading_.rbegin(); loading != loading_.rend(); ++loading) {
-        std::string link = describe(*loading->entry);
-        if (loading->neededAt) link += ", named at " + loading->neededAt.toString();
-        links.push_back(std::move(link));
-    }
-    return links;
-}
-
-void ResourceManager::forward(const Diagnostics& local) {
-    for (Diagnostic& diagnostic : local.all()) {
-        if (diagnostic.chain.empty()) diagnostic.chain = chain();
-        diagnostics_.report(std::move(diagnostic));
-    }
 }
 
 } // namespace terrane

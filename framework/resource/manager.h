@@ -84,6 +84,7 @@ private:
     void checkUnused(const XmlElement& element);
     bool loadReferences(ResourceEntry& entry, bool onDemand);
     void build(ResourceEntry& entry, Diagnostics& local);
+    static std::string described(const ResourceEntry& entry); ///< "node 'scene'"
     void reportUnknown(const std::string& name, const Place& place);
     void reportCycle(const ResourceEntry& entry, const Place& place);
     void reportMistyped(const RefBase& ref, const ResourceEntry& entry, std::type_index interface);
