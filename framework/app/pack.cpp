@@ -102,7 +102,7 @@ private:
         const std::string packed = nameOf(path, name);
         const auto [content, isNew] = contents_.try_emplace(packed, ZipContent{packed, path});
         content->second.stored |= inPieces || isPacked(path);
-        if (!isNew && content->second.path != path)
+        if (!isNew && content->second.path.lexically_normal() != path.lexically_normal())
             collide(path, content->second.path, "have one name");
         if (!isNew) return;
         const auto file = files_.open(path);

@@ -189,8 +189,12 @@ void Player::setStartView() {
     if (options_.view) controller_->view = controller_->fromDegrees(*options_.view);
 }
 
+bool Player::drawable() const {
+    return controller_ && scene_ && scene_->scheduler();
+}
+
 bool Player::frame() {
-    if (!controller_ || !scene_->scheduler()) return false;
+    if (!drawable()) return false;
     const std::uint64_t allocations = options_.allocations ? options_.allocations() : 0;
     context_->makeCurrent();
     const Clock::time_point begin = Clock::now();

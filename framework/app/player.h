@@ -84,7 +84,7 @@ public:
     std::vector<std::filesystem::path> sourceFolders() const;
 
     /// There is something to draw: what follows may be called.
-    bool drawable() const { return controller_ != nullptr; }
+    bool drawable() const;
     /// Draws the next frame; again, if a camera that has jumped turns out to be too near to the
     /// ground, or far from it. False when there is nothing to draw.
     bool frame();
@@ -205,6 +205,9 @@ private:
     std::unique_ptr<TerrainViewController> controller_;
     ViewShape viewShape_; ///< that the controller is for
     std::vector<AttributeSetting> attributeSettings_;
+    std::vector<AttributeSetting> nextSettings_;        ///< if what is being loaded is good
+    std::vector<std::filesystem::path> attemptedFiles_; ///< by a reload that failed
+    std::unique_ptr<TerrainViewController> before_;     ///< a restart: that of the archive before
     /// The newest text of each file, by the path that diagnostics show.
     std::map<std::string, std::shared_ptr<const SourceFile>> newestTexts_;
     bool good_ = false;                              ///< the archive is loaded without errors

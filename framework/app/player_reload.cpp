@@ -35,7 +35,10 @@ void addFoldersBelow(const fs::path& top, std::set<fs::path>& folders) {
     constexpr int kDeepest = 3;
     std::error_code error;
     int count = 0;
-    fs::recursive_directory_iterator entry(fs::absolute(top, error).lexically_normal(), error), end;
+    const fs::path folder = fs::absolute(top.empty() ? "." : top, error).lexically_normal();
+    fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied,
+                                           error),
+        end;
     for (; !error && entry != end && count < kMost; entry.increment(error)) {
         if (!entry->is_directory(error)) continue;
         const bool hidden = entry->path().filename().string().starts_with('.');
@@ -51,6 +54,8 @@ void addFoldersBelow(const fs::path& top, std::set<fs::path>& folders) {
 ReloadReport Player::reload() {
     const Clock::time_point begin = Clock::now();
     if (context_) context_->makeCurrent();
+    // What is told from here on is about files as they are now.
+    diagnostics_.setRelocation({});
     ReloadReport report;
     if (good_) {
         diagnostics_.forget(firstProblem_, problemsEnd_);
@@ -60,7 +65,8 @@ ReloadReport Player::reload() {
         report = restart();
     }
     // What went wrong while frames were drawn may be mended; what is not is in the log.
-    if (report.good && report.changed) firstProblem_ -= diagnostics_.forgetErrors();
+    if (report.good && report.changed) firstProblem_ -= diagnostics_.forgetErrors(firstProblem_);
+    if (good_) followPlaces();
     problemsEnd_ = diagnostics_.size();
     showProblems();
     const std::chrono::duration<double, std::milli> time = Clock::now() - begin;
@@ -119,6 +125,8 @@ std::vector<fs::path> Player::sourceFolders() const {
         addParent(options_.archive / "."); // of a folder, the folder itself
         addParent(options_.archive);
     }
+    for (const fs::path& file : attemptedFiles_)
+        addParent(file);
     if (!resources_) return {folders.begin(), folders.end()};
     for (const auto& [name, entry] : resources_->entries()) {
         addParent(entry->descriptor);
@@ -159,12 +167,14 @@ std::string Player::set(const std::string& resource, const std::string& attribut
 
 void Player::applySettings(Library& library) {
     std::map<fs::path, std::string> texts;
-    std::erase_if(attributeSettings_, [&](const AttributeSetting& setting) {
+    nextSettings_ = attributeSettings_;
+    std::erase_if(nextSettings_, [&](const AttributeSetting& setting) {
         auto [text, isNew] = texts.try_emplace(setting.file);
         if (isNew) text->second = library.searchPath().files().read(setting.file).value_or("");
+        auto edited = withAttribute(text->second, setting.place, setting.value);
+        if (!edited) return false; // saved halfway, perhaps
         if (attributeValue(text->second, setting.place) != setting.original) return true;
-        if (auto edited = withAttribute(text->second, setting.place, setting.value))
-            text->second = std::move(*edited);
+        text->second = std::move(*edited);
         return false;
     });
     for (auto& [file, text] : texts) {
@@ -174,19 +184,20 @@ void Player::applySettings(Library& library) {
 
 // There is nothing good to fall back to, so there is nothing to keep but the view.
 ReloadReport Player::restart() {
-    const std::unique_ptr<TerrainViewController> before = std::move(controller_);
+    if (controller_) before_ = std::move(controller_); // of the last archive that had a view
     scene_.reset();
     terrains_.clear();
     samplers_.clear();
     settings_ = {};
     resources_.reset();
     library_.reset();
+    newestTexts_.clear();
     diagnostics_.clear();
     firstProblem_ = 0;
     load();
-    if (before && controller_ && typeid(*before) == typeid(*controller_)) {
-        controller_->view = before->view;
-        controller_->groundHeight = before->groundHeight;
+    if (before_ && controller_ && typeid(*before_) == typeid(*controller_)) {
+        controller_->view = before_->view;
+        controller_->groundHeight = before_->groundHeight;
     }
     ReloadReport report{.changed = true, .good = good_};
     if (!resources_) return report;
@@ -196,6 +207,7 @@ ReloadReport Player::restart() {
 }
 
 ReloadReport Player::replace() {
+    attemptedFiles_.clear();
     const std::size_t errors = diagnostics_.errors();
     const auto failed = [&] { return diagnostics_.errors() > errors; };
     std::unique_ptr<Library> fresh = readArchive();
@@ -216,13 +228,15 @@ ReloadReport Player::replace() {
             reload.rollBack();
             bindScene();
             scene_->plan();
+            for (const auto& [path, source] : fresh->sources())
+                attemptedFiles_.push_back(path); // where the mistake may be
             return report;
         }
     }
     if (failed()) return {.changed = true, .good = false};
     reload.commit(roots());
     library_ = std::move(fresh);
-    followPlaces();
+    attributeSettings_ = nextSettings_;
     followShape();
     return report;
 }

@@ -149,6 +149,13 @@ std::string counted(std::size_t count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
 void tellReload(const ReloadReport& report, bool anythingNew, const RunOptions& options,
                 Messages& err) {
     if (!report.changed || options.logLevel > LogLevel::info) return;
@@ -163,7 +170,7 @@ void tellReload(const ReloadReport& report, bool anythingNew, const RunOptions& 
     err.tell("reloaded " + counted(report.rebuilt.size(), "resource") + ", " +
              counted(std::size_t(tiles), "tile") + " to make anew, in " +
              std::to_string(std::lround(report.milliseconds)) + " ms" +
-             (names.empty() ? "" : ": " + listOfNames(names)) +
+             (names.empty() ? "" : ": " + joined(names)) +
              (names.size() < report.rebuilt.size() ? "...\n" : "\n"));
 }
 

@@ -161,18 +161,21 @@ void Diagnostics::clear() {
 }
 
 void Diagnostics::forget(std::size_t first, std::size_t last) {
+    if (first >= last) return;
     std::lock_guard lock(mutex_);
     list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(std::min(first, list_.size())),
                 list_.begin() + static_cast<std::ptrdiff_t>(std::min(last, list_.size())));
     countAgain();
 }
 
-std::size_t Diagnostics::forgetErrors() {
+std::size_t Diagnostics::forgetErrors(std::size_t index) {
+    const auto isError = [](const Diagnostic& d) { return d.severity == Severity::error; };
     std::lock_guard lock(mutex_);
-    const std::size_t before = list_.size();
-    std::erase_if(list_, [](const Diagnostic& d) { return d.severity == Severity::error; });
+    const auto end = list_.begin() + static_cast<std::ptrdiff_t>(std::min(index, list_.size()));
+    const auto before = std::count_if(list_.begin(), end, isError);
+    std::erase_if(list_, isError);
     countAgain();
-    return before - list_.size();
+    return static_cast<std::size_t>(before);
 }
 
 void Diagnostics::countAgain() {

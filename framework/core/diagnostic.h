@@ -51,8 +51,8 @@ public:
     void clear();
     /// Forgets the diagnostics from one of the list of all() on, up to another.
     void forget(std::size_t first, std::size_t last);
-    /// Forgets all errors; how many there were.
-    std::size_t forgetErrors();
+    /// Forgets all errors; how many of them stood in the list of all() before an index.
+    std::size_t forgetErrors(std::size_t index);
     /// Called for each new diagnostic, on the thread that reports it.
     void onReport(Listener listener);
     /// Where the places of diagnostics are by now, since files change while they are in use; called

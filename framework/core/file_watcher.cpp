@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <fcntl.h>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -24,9 +25,19 @@ std::int64_t milliseconds(Clock::time_point time) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
 }
 
-ino_t inodeOf(const fs::path& folder) {
-    struct stat status {};
-    return ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) ? status.st_ino : 0;
+/// What tells a folder from another one that took its place: systems use numbers again.
+struct Identity {
+    std::uint64_t inode = 0; ///< 0: there is no such folder
+    std::int64_t born = 0;   ///< nanoseconds, where the file system knows
+    bool operator==(const Identity&) const = default;
+};
+
+Identity identityOf(const fs::path& folder) {
+    struct statx status {};
+    const int wanted = STATX_TYPE | STATX_INO | STATX_BTIME;
+    if (::statx(AT_FDCWD, folder.c_str(), 0, wanted, &status) != 0 || !S_ISDIR(status.stx_mode))
+        return {};
+    return {status.stx_ino, status.stx_btime.tv_sec * 1000000000LL + status.stx_btime.tv_nsec};
 }
 
 /// Names, sizes and times of what is in a folder; 0 for one that is not there.
@@ -91,7 +102,7 @@ private:
 
     struct Folder {
         std::unique_ptr<uv_fs_event_t> events; ///< null: it is polled
-        ino_t inode = 0;                       ///< 0: there is no such folder
+        Identity identity;                     ///< of what is watched
         std::size_t signature = 0;             ///< of the last look, where it is polled
     };
 
@@ -129,9 +140,9 @@ private:
     }
 
     void start(const fs::path& path, Folder& folder) {
-        folder.inode = inodeOf(path);
+        folder.identity = identityOf(path);
         folder.signature = signatureOf(path);
-        if (options_.method == Method::polling || folder.inode == 0) return;
+        if (options_.method == Method::polling || folder.identity == Identity()) return;
         auto events = std::make_unique<uv_fs_event_t>();
         uv_fs_event_init(&loop_, events.get());
         events->data = this;
@@ -152,7 +163,7 @@ private:
     // The system goes on watching a folder that was deleted, not the one that took its place.
     void poll() {
         for (auto& [path, folder] : folders_) {
-            if (folder.inode != inodeOf(path)) {
+            if (folder.identity != identityOf(path)) {
                 stopEvents(folder);
                 start(path, folder);
                 notice();

@@ -25,7 +25,10 @@ std::optional<ProgramBinary> findBinary(const ProgramElement& d, BuildContext& c
     const std::string file = (d.name.given ? *d.name : context.name()) + ".bin";
     const SearchPath& search = context.manager().library().searchPath();
     const auto found = search.find(file);
-    if (!found) return std::nullopt;
+    if (!found) {
+        context.addMissingFile(file);
+        return std::nullopt;
+    }
     context.addFile(file, found->path);
     const auto bytes = search.files().read(found->path);
     std::uint32_t format = 0;

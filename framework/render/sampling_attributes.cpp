@@ -15,7 +15,8 @@ constexpr std::string_view kSwizzleLetters = "rgba01";
 Swizzle swizzleOf(char letter) {
     constexpr Swizzle values[] = {Swizzle::red,   Swizzle::green, Swizzle::blue,
                                   Swizzle::alpha, Swizzle::zero,  Swizzle::one};
-    return values[kSwizzleLetters.find(letter)];
+    const std::size_t index = kSwizzleLetters.find(letter);
+    return index < kSwizzleLetters.size() ? values[index] : Swizzle::red; // told by its rule
 }
 
 } // namespace

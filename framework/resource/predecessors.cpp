@@ -36,7 +36,8 @@ Content contentOf(const Child& child) {
 }
 
 Identity identityOf(const Child& child) {
-    return {child.declaration, *child.description->id};
+    const ElementDescription& d = *child.description;
+    return {child.declaration, d.id->empty() ? *d.name : *d.id};
 }
 
 } // namespace
@@ -52,8 +53,8 @@ std::vector<const Child*> predecessors(const ElementDescription* before,
         result[i] = byContent.take(contentOf(now.children[i]));
     Pool<Identity> byIdentity;
     for (const Child& child : before->children) {
-        if (const Child* const left = byContent.take(contentOf(child)))
-            byIdentity.add(identityOf(*left), *left);
+        const Child* const left = byContent.take(contentOf(child));
+        if (left && !identityOf(*left).second.empty()) byIdentity.add(identityOf(*left), *left);
     }
     for (std::size_t i = 0; i < result.size(); ++i) {
         if (!result[i]) result[i] = byIdentity.take(identityOf(now.children[i]));

@@ -50,15 +50,13 @@ Reload::~Reload() {
 }
 
 bool Reload::isChanged(const UsedFile& file) {
-    if (file.path.empty()) return fresh_.searchPath().find(file.name).has_value();
-    const auto [known, isNew] = fileChanged_.try_emplace(file.path);
+    const auto [known, isNew] = found_.try_emplace(file.name);
     if (isNew) {
-        // The name may lead to another file than before.
-        const auto found = fresh_.searchPath().find(file.name);
-        known->second = !found || found->path != file.path ||
-                        file.stamp.differs(file.path, fresh_.searchPath().files());
+        if (const auto found = fresh_.searchPath().find(file.name)) known->second = found->path;
     }
-    return known->second;
+    if (file.path.empty()) return known->second.has_value();
+    // The name may lead to another file than before.
+    return known->second != file.path || file.stamp.differs(file.path, fresh_.searchPath().files());
 }
 
 bool Reload::isChanged(ResourceEntry& entry) {
@@ -107,7 +105,11 @@ void Reload::rebuild() {
     manager_.library_ = &fresh_;
     manager_.transaction_ = &transaction_;
     for (ResourceEntry* const entry : order) {
-        if (!entry->dependents.empty()) manager_.load(entry->name, {});
+        if (entry->dependents.empty()) continue;
+        // What follows from its name alone is blamed on where it was named.
+        const ResourceVersion& before = transaction_.replaced.at(entry);
+        const bool named = before.descriptor.empty() && before.description;
+        manager_.load(entry->name, named ? before.description->place : Place());
     }
 }
 

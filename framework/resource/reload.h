@@ -60,7 +60,8 @@ private:
     Library& stale_;
     std::set<ResourceEntry*> affected_;
     std::set<ResourceEntry*> gone_; ///< of these: nothing has their name any more
-    std::map<std::filesystem::path, bool> fileChanged_;
+    /// Where the names of files lead now.
+    std::map<std::string, std::optional<std::filesystem::path>> found_;
     Transaction transaction_;
     bool open_ = true; ///< neither committed nor rolled back
 };

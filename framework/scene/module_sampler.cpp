@@ -24,8 +24,8 @@ bool ModuleSampler::exists() {
 
 void ModuleSampler::findProgram() {
     const auto& programs = module_->programs();
-    if (programs.empty() || programs.front() == first_) return;
-    first_ = programs.front();
+    if (programs == programs_) return;
+    programs_ = programs;
     handle_ = {};
     for (Program* program : programs) {
         const UniformHandle handle = program->find(sampler_);

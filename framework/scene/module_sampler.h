@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace terrane {
 
@@ -32,7 +33,7 @@ private:
     Ref<Module> module_;
     std::string sampler_;
     Ref<Texture> initial_;
-    const Program* first_ = nullptr; ///< of the programs, when the handle was found
+    std::vector<Program*> programs_; ///< of the module, when the handle was looked for
     UniformHandle handle_;
 };
 

@@ -502,3 +502,32 @@ TEST_CASE(
     const SourceFile now("archive.xml", archive.read("archive.xml"));
     CHECK(now.line(at.line).find("<tileSampler ") != std::string_view::npos);
 }
+
+TEST_CASE("a message shows the text that it is about, however often the file was saved") {
+    EditedArchive archive;
+    Player& player = archive.open();
+    archive.edit("sky.glsl", "0.4, 0.6", "0.5, 0.6");
+    archive.edit("archive.xml", "<archive>", "<archive>\n\n");
+    CHECK(player.reload().good);
+    struct Row {
+        const char *file, *before, *after, *line;
+    };
+    const Row rows[] = {
+        {"archive.xml", "maxLevel=\"5\"", "maxLevle=\"5\"", "maxLevle=\"5\""},
+        {"archive.xml", "<normalProducer ", "<normalProduccer ", "<normalProduccer "},
+        {"sky.glsl", "vec4(0.5", "vec4(x, 0.5", "vec4(x, 0.5"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(std::string(row.after));
+        const std::string good = archive.read(row.file);
+        archive.edit(row.file, row.before, row.after);
+        player.reload();
+        const std::vector<Diagnostic> problems = player.problems();
+        archive.write(row.file, good);
+        CHECK(player.reload().good);
+        REQUIRE(!problems.empty());
+        const Place& place = problems.front().place;
+        REQUIRE(place);
+        CHECK(place.file->line(place.position().line).find(row.line) != std::string_view::npos);
+    }
+}
