@@ -27,7 +27,7 @@ void BuildContext::addMissingFile(const std::string& name) const {
 void BuildContext::addFile(const std::string& name, const std::filesystem::path& path,
                            FileStamp::Significant significant) const {
     ++uses_;
-    entry_.files.push_back({name, path, FileStamp::of(path, significant, files())});
+    entry_.files.push_back({name, path, manager_.library().stamp(path, significant)});
 }
 
 std::optional<std::string> BuildContext::readFile(const std::string& name,

@@ -199,6 +199,12 @@ std::shared_ptr<const SourceFile> Library::source(const fs::path& path, std::str
     return source;
 }
 
+const FileStamp& Library::stamp(const fs::path& path, FileStamp::Significant significant) {
+    const auto [known, isNew] = stamps_.try_emplace({path, significant});
+    if (isNew) known->second = FileStamp::of(path, significant, searchPath_.files());
+    return known->second;
+}
+
 namespace {
 
 bool isArchive(const FileTree& files, const fs::path& file) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/diagnostic.h"
+#include "core/file_stamp.h"
 #include "core/files.h"
 #include "resource/xml.h"
 
@@ -12,6 +13,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace terrane {
@@ -67,6 +69,9 @@ public:
     /// reason is told where there is one beyond that.
     std::shared_ptr<const SourceFile> source(const std::filesystem::path& path,
                                              std::string* problem = nullptr);
+    /// What a file was like when it was first asked for here, which is before its text is read: all
+    /// who use the text share it.
+    const FileStamp& stamp(const std::filesystem::path& path, FileStamp::Significant significant);
     /// All that were read, by path.
     const std::map<std::filesystem::path, std::shared_ptr<const SourceFile>>& sources() const {
         return sources_;
@@ -94,6 +99,7 @@ private:
     std::map<std::filesystem::path, std::shared_ptr<const XmlDocument>>
         documents_; ///< null: damaged
     std::map<std::filesystem::path, std::shared_ptr<const SourceFile>> sources_;
+    std::map<std::pair<std::filesystem::path, FileStamp::Significant>, FileStamp> stamps_;
     std::set<std::string> damaged_;
 };
 

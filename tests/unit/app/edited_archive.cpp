@@ -159,8 +159,7 @@ EditedArchive::EditedArchive(PlayerOptions options)
     write("sky.glsl", kSky);
     write("whole.mesh", "0 1 0 1 0 0 trianglestrip 1 0 3 float false\n"
                         "4  -1 -1 0  1 -1 0  -1 1 0  1 1 0\n0\n");
-    REQUIRE(writePng(folder_ / "tint.png",
-                     Image{.width = 1, .height = 1, .channels = 3, .bytes = {180, 160, 150}}));
+    paintTint(180, 160, 150);
 }
 
 PlayerOptions EditedArchive::options() const {
@@ -209,6 +208,29 @@ Image EditedArchive::freshPicture() {
     fresh.controller().view = player_->controller().view;
     REQUIRE(fresh.drawUntilComplete());
     return fresh.capture();
+}
+
+void EditedArchive::paintTint(unsigned char r, unsigned char g, unsigned char b) {
+    REQUIRE(writePng(folder_ / "tint.png",
+                     Image{.width = 1, .height = 1, .channels = 3, .bytes = {r, g, b}}));
+}
+
+std::string EditedArchive::problems() const {
+    std::vector<std::string> codes;
+    for (const Diagnostic& d : player_->problems())
+        codes.push_back(d.code);
+    return listed(codes);
+}
+
+bool samePicture(const Image& a, const Image& b) {
+    return a.width == b.width && a.height == b.height && a.bytes == b.bytes;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += name + " ";
+    return text;
 }
 
 } // namespace terrane

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace terrane {
 
@@ -30,12 +31,16 @@ public:
     void write(const std::string& file, std::string_view bytes) { folder_.file(file, bytes); }
     std::string read(const std::string& file) const;
     void remove(const std::string& file);
+    /// Fills the texture that the ground is tinted with.
+    void paintTint(unsigned char r, unsigned char g, unsigned char b);
     const std::filesystem::path& path() const { return folder_.path(); }
 
     /// The picture, once it is complete.
     Image picture();
     /// That of another player that opens the archive as it is now, with the same view and clock.
     Image freshPicture();
+    /// Codes of the player's problems, with a blank behind each.
+    std::string problems() const;
 
 private:
     PlayerOptions options() const;
@@ -44,5 +49,10 @@ private:
     PlayerOptions options_;
     std::unique_ptr<Player> player_;
 };
+
+bool samePicture(const Image& a, const Image& b);
+
+/// The names, with a blank behind each.
+std::string listed(const std::vector<std::string>& names);
 
 } // namespace terrane

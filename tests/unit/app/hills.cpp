@@ -110,6 +110,15 @@ std::string archiveOf(Hills::Shape shape) {
 
 } // namespace
 
+const std::vector<View> Hills::kViews{
+    {.x0 = -300, .y0 = -200, .theta = 83, .phi = 23, .d = 60},
+    {.x0 = 420, .y0 = 330, .theta = 70, .phi = 200, .d = 15},
+    {.x0 = 0, .y0 = 0, .theta = 0, .phi = 0, .d = 900},
+    {.x0 = 700, .y0 = -650, .theta = 88, .phi = 45, .d = 200},
+    {.x0 = -10, .y0 = 10, .theta = 100, .phi = 10, .d = 5}, // up into the sky
+    {.x0 = -640, .y0 = 555, .theta = 60, .phi = 310, .d = 400},
+};
+
 const std::vector<double> Hills::kAmplitudes{100, -80, 60, 30, 15, 8, 4};
 
 Hills::Hills(Shape shape, const Edits& edits, PlayerOptions options)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "archive_folder.h"
+#include "sanitized.h"
 
 #include "app/player.h"
 #include "resource/manager.h"
@@ -12,6 +13,9 @@
 #include <vector>
 
 namespace terrane {
+
+/// Of flights; shorter where everything takes longer.
+inline constexpr int kFlightFrames = kSanitized ? 30 : 150;
 
 /// Small terrains with a tileSamplerZ for each, and a player that draws them small, without a
 /// script.
@@ -25,6 +29,8 @@ public:
     static constexpr int kTileSize = 29;
     /// Of the noise of the elevations, by level, metres.
     static const std::vector<double> kAmplitudes;
+    /// Of the flat one, degrees: near the ground, from above, up into the sky.
+    static const std::vector<View> kViews;
 
     /// @param edits texts of the archive and what stands there instead, wherever it occurs; each
     ///        must be there

@@ -5,7 +5,6 @@
 #include "plugin_terrain/elevation_oracle.h"
 #include "producer/tile_producer.h"
 #include "render/context.h"
-#include "sanitized.h"
 #include "scene/scene_manager.h"
 #include "terrain/spherical_deformation.h"
 #include "tools/terrane/allocation_counter.h"
@@ -25,17 +24,6 @@ using namespace terrane;
 using terrane::test::ElevationOracle;
 
 namespace {
-
-constexpr int kFlightFrames = kSanitized ? 30 : 150;
-
-const std::vector<View> kViews{
-    {.x0 = -300, .y0 = -200, .theta = 83, .phi = 23, .d = 60},
-    {.x0 = 420, .y0 = 330, .theta = 70, .phi = 200, .d = 15},
-    {.x0 = 0, .y0 = 0, .theta = 0, .phi = 0, .d = 900},
-    {.x0 = 700, .y0 = -650, .theta = 88, .phi = 45, .d = 200},
-    {.x0 = -10, .y0 = 10, .theta = 100, .phi = 10, .d = 5}, // up into the sky
-    {.x0 = -640, .y0 = 555, .theta = 60, .phi = 310, .d = 400},
-};
 
 ElevationOracle makeOracle() {
     return ElevationOracle({.tileSize = Hills::kTileSize,
@@ -120,18 +108,6 @@ std::vector<Frame> fly(Hills& hills, int frames) {
     return result;
 }
 
-/// Draws a frame; how high its camera is above the ground as the finest tiles then show it, and
-/// that ground.
-std::pair<double, double> heightAboveGround(Player& player) {
-    REQUIRE(player.frame());
-    const glm::dvec3 camera(player.scene()->cameraToWorld()[3]);
-    const auto place = player.placeAt(camera.x, camera.y);
-    REQUIRE(place);
-    const auto ground = player.elevationAt(*place);
-    REQUIRE(ground);
-    return {camera.z - ground->elevation, ground->elevation};
-}
-
 /// Counts the reductions that the frames of a player run.
 void countReadings(Player& player, std::atomic<int>& count) {
     player.scene()->scheduler()->setObserver([&count](const TaskRun& run) {
@@ -145,7 +121,7 @@ TEST_CASE("the ground below the camera is that of an independent computation") {
     Hills hills;
     REQUIRE(hills.player().load());
     ElevationOracle oracle = makeOracle();
-    for (const View& view : kViews) {
+    for (const View& view : Hills::kViews) {
         CAPTURE(view.x0);
         hills.look(view);
         REQUIRE(hills.player().drawUntilComplete());
@@ -171,7 +147,7 @@ TEST_CASE("quads get the bounds of what is drawn of them") {
     Hills hills;
     REQUIRE(hills.player().load());
     ElevationOracle oracle = makeOracle();
-    for (const View& view : kViews) {
+    for (const View& view : Hills::kViews) {
         CAPTURE(view.x0);
         hills.look(view);
         REQUIRE(hills.player().drawUntilComplete());
@@ -194,7 +170,7 @@ TEST_CASE("what is not measured keeps its ground within what it inherits") {
     fly(hills, kFlightFrames / 3);
     ElevationOracle oracle = makeOracle();
     int checked = 0;
-    for (const View& view : kViews) {
+    for (const View& view : Hills::kViews) {
         hills.look(view);
         for (int i = 0; i < 3; ++i) {
             hills.player().frame();
@@ -214,7 +190,7 @@ TEST_CASE("answers come in the fourth frame after a tile was made, sixteen at a 
     Hills hills;
     Player& player = hills.player();
     REQUIRE(player.load());
-    hills.look(kViews[1]);
+    hills.look(Hills::kViews[1]);
     std::atomic<int> readings = 0;
     countReadings(player, readings);
     std::vector<int> measured;
@@ -242,7 +218,7 @@ TEST_CASE("a still picture reads nothing back and allocates nothing") {
     Hills hills(Hills::Shape::flat, {}, {.recordFrames = true, .allocations = countedAllocations});
     Player& player = hills.player();
     REQUIRE(player.load());
-    hills.look(kViews[1]);
+    hills.look(Hills::kViews[1]);
     REQUIRE(player.drawUntilComplete());
     std::atomic<int> readings = 0;
     countReadings(player, readings);
@@ -254,7 +230,7 @@ TEST_CASE("a still picture reads nothing back and allocates nothing") {
     CHECK(readings.load() == 0);
     // Even one whose camera moves, above tiles that are there, allocates nothing.
     for (int i = 0; i < 10; ++i) {
-        View view = kViews[1];
+        View view = Hills::kViews[1];
         view.x0 += 0.02 * i;
         hills.look(view);
         CHECK(player.frame());
@@ -268,7 +244,7 @@ TEST_CASE("tiles that are made again are read again") {
     Hills hills;
     Player& player = hills.player();
     REQUIRE(player.load());
-    hills.look(kViews[0]);
+    hills.look(Hills::kViews[0]);
     REQUIRE(player.drawUntilComplete());
     const int measured = measuredQuads(hills.terrain());
     const double ground = hills.terrain().groundHeight();
@@ -290,7 +266,7 @@ TEST_CASE("a sampler that a reload makes anew forgets what the one before it mea
     Player& player = hills.player();
     REQUIRE(player.load());
     for (const int view : {2, 0}) { // from above, and from the ground, which hides some of it
-        hills.look(kViews[view]);
+        hills.look(Hills::kViews[view]);
         REQUIRE(player.drawUntilComplete());
     }
     const TerrainNode* const terrain = &hills.terrain();
@@ -322,7 +298,7 @@ TEST_CASE("nothing visible is left out because of what was measured") {
     }
     CHECK(compared > kFlightFrames / 5);
     // Still views too, where all bounds are known.
-    for (const View& view : kViews) {
+    for (const View& view : Hills::kViews) {
         CAPTURE(view.x0);
         measuring.look(view);
         REQUIRE(measuring.player().drawUntilComplete());
@@ -371,102 +347,6 @@ TEST_CASE("ground that nothing seen so far was as rough as is not left out of a 
         CHECK(plain.player().capture().bytes == measuring.player().capture().bytes);
     }
     CHECK(doubts > 0);
-}
-
-TEST_CASE("the first picture, and that after a jump, is taken from where the camera will stay") {
-    for (const auto shape : {Hills::Shape::flat, Hills::Shape::planet}) {
-        CAPTURE(static_cast<int>(shape));
-        Hills hills(shape);
-        Player& player = hills.player();
-        REQUIRE(player.load());
-        for (int i = 0; i < 12; ++i) {
-            CAPTURE(i);
-            View view{.x0 = 700 * std::cos(2.0 * i),
-                      .y0 = 700 * std::sin(3.0 * i + 1),
-                      .theta = 80,
-                      .phi = 50.0 * i,
-                      .d = 20};
-            if (shape == Hills::Shape::planet) view.x0 = 110.0 * i, view.y0 = -75 + 13.0 * i;
-            hills.look(view);
-            REQUIRE(player.frame());
-            const glm::dvec3 at(player.scene()->cameraToWorld()[3]);
-            REQUIRE(player.drawUntilComplete());
-            const glm::dvec3 stays(player.scene()->cameraToWorld()[3]);
-            CHECK(glm::distance(at, stays) < 0.6);
-        }
-    }
-}
-
-TEST_CASE("a flat terrain that its node has lifted carries the camera with it") {
-    const View view{.x0 = -300, .y0 = -200, .theta = 83, .phi = 23, .d = 60};
-    std::vector<glm::dvec3> cameras;
-    std::vector<Image> pictures;
-    for (const char* const edit : {"", "<translate x='0' y='0' z='730'/>"}) {
-        Hills hills(Hills::Shape::flat,
-                    {{"<node name='ground1' flags='ground'>",
-                      std::string("<node name='ground1' flags='ground'>") + edit}});
-        REQUIRE(hills.player().load());
-        hills.look(view);
-        REQUIRE(hills.player().drawUntilComplete());
-        cameras.emplace_back(hills.player().scene()->cameraToWorld()[3]);
-        pictures.push_back(hills.player().capture());
-    }
-    CHECK(glm::distance(cameras[0] + glm::dvec3(0, 0, 730), cameras[1]) < 1e-6);
-    CHECK(comparePictures(pictures[0], pictures[1]).share <= 0.002); // floats in the shader
-}
-
-TEST_CASE("a camera that is somewhere else in each frame is never in a hill") {
-    Hills hills;
-    Player& player = hills.player();
-    REQUIRE(player.load());
-    for (int i = 0; i < kFlightFrames; ++i) {
-        CAPTURE(i);
-        hills.look({.x0 = 850 * std::cos(1.9 * i),
-                    .y0 = 850 * std::sin(2.6 * i),
-                    .theta = 86,
-                    .phi = 77.0 * i,
-                    .d = 12});
-        CHECK(heightAboveGround(player).first > 0.3);
-    }
-}
-
-TEST_CASE("a flight that would end in a hill stays above it") {
-    Hills hills;
-    Player& player = hills.player();
-    REQUIRE(player.load());
-    hills.look({.x0 = -900, .y0 = 100, .theta = 88, .phi = 270, .d = 10});
-    REQUIRE(player.drawUntilComplete());
-    double least = 1e9, most = -1e9;
-    // 3 m a frame, since what is read back is some frames late.
-    for (int i = 0; i < 600; ++i) {
-        CAPTURE(i);
-        hills.look({.x0 = -900 + 3.0 * i, .y0 = 100, .theta = 88, .phi = 270, .d = 10});
-        const auto [above, ground] = heightAboveGround(player);
-        CHECK(above > 0.3);
-        least = std::min(least, ground);
-        most = std::max(most, ground);
-    }
-    CHECK(most - least > 100); // there were hills in the way
-}
-
-TEST_CASE("a camera that turns, stops and jumps stays above the ground, too") {
-    Hills hills;
-    Player& player = hills.player();
-    REQUIRE(player.load());
-    hills.look(kViews[0]);
-    REQUIRE(player.drawUntilComplete());
-    for (int i = 0; i < 2 * kFlightFrames; ++i) {
-        CAPTURE(i);
-        // Circles, with a halt now and then and a jump each 25 frames.
-        const double t = (i % 25 < 18 ? i : i - i % 25 + 18) * 0.13 + 40 * (i / 25);
-        const double radius = 300 + 250 * std::sin(i / 25 * 1.7);
-        hills.look({.x0 = radius * std::cos(t),
-                    .y0 = radius * std::sin(t),
-                    .theta = 70,
-                    .phi = 50 * t,
-                    .d = 12});
-        CHECK(heightAboveGround(player).first > 0);
-    }
 }
 
 TEST_CASE("ground and picture are the same in each run, with any number of workers") {
